@@ -1,0 +1,88 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/status.hpp"
+
+namespace bladefit {
+
+/// The compiled design: one flat, relocatable block, used in place from memory, a file mapping or flash.
+/// Layout (little endian, 8-byte aligned throughout): ImageHeader, then the arrays at the offsets it names.
+/// All lengths are millimetres; every patch has its parameters normalised to 0..1.
+
+inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
+inline constexpr std::uint32_t kImageVersion = 1;
+inline constexpr std::uint32_t kMaxDegree = 9;
+inline constexpr std::uint32_t kMaxTreeDepth = 48;
+
+enum class DesignUnit : std::uint32_t { mm = 0, inch = 1 };
+
+struct ImageHeader {
+  char magic[8];
+  std::uint32_t version;
+  std::uint32_t crc32;        ///< CRC-32 (IEEE 802.3, as in zlib) over the whole image with this field as 0
+  std::uint64_t total_size;   ///< bytes
+  std::uint32_t design_unit;  ///< DesignUnit of the file it was compiled from; the numbers here are mm all the same
+  std::int32_t outward;       ///< +1 or -1: outward normal = outward * (Su x Sv)
+  std::uint32_t patch_count, span_count, node_count, break_count;
+  std::uint64_t coefficient_count;  ///< doubles
+  std::uint64_t patches_offset, spans_offset, nodes_offset, breaks_offset, coefficients_offset;
+  double box_min[3], box_max[3];  ///< of the control points [mm]
+};
+
+/// One NURBS patch, cut into spans_u x spans_v Bezier spans.
+struct ImagePatch {
+  std::uint32_t degree_u, degree_v;      ///< 1..9
+  std::uint32_t spans_u, spans_v;
+  std::uint32_t first_span;              ///< span (iu, iv) is spans[first_span + iu * spans_v + iv]
+  std::uint32_t first_break_u, first_break_v;  ///< spans_u + 1 (spans_v + 1) rising parameters, the first 0, the last 1
+  std::uint32_t rational;                ///< 0: every weight is 1
+};
+
+/// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
+/// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w).
+struct ImageSpan {
+  std::uint32_t patch, iu, iv, reserved;
+  std::uint64_t first_coefficient;
+  double cone_axis[3];       ///< every outward normal of the span is within the cone about this unit axis
+  double cone_cosine;        ///< cosine of the half angle; -1 where no bound is known
+};
+
+/// Node of the binary bounding tree, in depth-first order: the left child of node k is k + 1.
+struct ImageNode {
+  double box_min[3], box_max[3];  ///< contains every control point below it [mm]
+  std::uint32_t right;            ///< index of the right child; 0 for a leaf
+  std::uint32_t span;             ///< of a leaf
+};
+
+static_assert(sizeof(ImageHeader) == 160 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 && sizeof(ImageNode) == 56);
+
+/// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.
+[[nodiscard]] std::uint32_t image_crc(std::span<const std::byte> image);
+
+/// A validated image; views into memory that the caller keeps alive. Copying it copies the views only.
+class DesignImage {
+ public:
+  /// Checks length, magic, version, CRC and every index, number and box of `bytes` before it is trusted.
+  /// Returns ok, null_argument, misaligned (8 bytes), bad_length, bad_magic, bad_version, bad_crc or bad_content;
+  /// `image` is written only with ok. Cost: linear in the size; done once.
+  [[nodiscard]] static Status open(std::span<const std::byte> bytes, DesignImage& image);
+
+  [[nodiscard]] const ImageHeader& header() const { return *header_; }
+  [[nodiscard]] std::span<const ImagePatch> patches() const { return patches_; }
+  [[nodiscard]] std::span<const ImageSpan> spans() const { return spans_; }
+  [[nodiscard]] std::span<const ImageNode> nodes() const { return nodes_; }
+  [[nodiscard]] std::span<const double> breaks() const { return breaks_; }
+  [[nodiscard]] std::span<const double> coefficients() const { return coefficients_; }
+
+ private:
+  const ImageHeader* header_ = nullptr;
+  std::span<const ImagePatch> patches_;
+  std::span<const ImageSpan> spans_;
+  std::span<const ImageNode> nodes_;
+  std::span<const double> breaks_;
+  std::span<const double> coefficients_;
+};
+
+}  // namespace bladefit

@@ -1,0 +1,32 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace bladefit {
+
+enum class Region : std::uint8_t { rest = 0, leading_edge = 1 };
+
+/// Part of a patch between isoparameter lines, limits included.
+struct ParameterBox {
+  std::uint32_t patch = 0;
+  double u_min = 0, u_max = 1, v_min = 0, v_max = 1;
+};
+
+/// Tolerance as a function over the patch parameters (thesis 4-6, 4-7, footnote 4).
+struct ToleranceMap {
+  static constexpr std::size_t kMaxBoxes = 32;
+  std::array<ParameterBox, kMaxBoxes> boxes{};  ///< the leading-edge region is their union
+  std::uint32_t box_count = 0;
+  double leading_edge_mm = std::numeric_limits<double>::infinity();  ///< |d| allowed inside; infinity = not judged
+  double rest_mm = std::numeric_limits<double>::infinity();          ///< |d| allowed elsewhere
+  double transition = 0;  ///< width, in parameter units, over which the tolerance rises linearly outside a box
+};
+
+/// Region of a foot at (u, v) of `patch`. Cost: linear in box_count.
+[[nodiscard]] Region region_at(const ToleranceMap& map, std::uint32_t patch, double u, double v);
+
+/// Tolerance [mm] at (u, v) of `patch`, the transition zone included. Cost: linear in box_count.
+[[nodiscard]] double tolerance_at(const ToleranceMap& map, std::uint32_t patch, double u, double v);
+
+}  // namespace bladefit

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+
+#include "core/geometry/foot.hpp"
+#include "core/inspection/tolerance_map.hpp"
+
+namespace bladefit {
+
+enum class PointState : std::uint8_t { pending = 0, in = 1, out = 2, rejected = 3 };
+enum class Action : std::uint8_t { none = 0, cut = 1, weld = 2 };
+
+/// What is known of one point at one revision of the fit.
+struct Verdict {
+  std::uint32_t sequence = 0;
+  Foot foot;
+  Region region = Region::rest;
+  double tolerance_mm = 0;     ///< |distance| allowed at the foot; infinity where none was set
+  double uncertainty_mm = 0;   ///< standard uncertainty of the distance that comes from the pose
+  PointState state = PointState::pending;
+  Action action = Action::none;  ///< cut or weld where the state is out
+  std::uint32_t revision = 0;    ///< fit revision it was judged at
+};
+
+}  // namespace bladefit

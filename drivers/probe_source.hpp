@@ -1,0 +1,57 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "core/probe_point.hpp"
+
+namespace bladefit {
+
+enum class LinkState : std::uint8_t { connecting, up, lost };
+
+/// Why a source cannot start. `message` is one line that names the device and the mend; empty = no error.
+struct SourceError {
+  std::string message;
+  [[nodiscard]] explicit operator bool() const { return !message.empty(); }
+};
+
+/// Published state of a source, for the panel and the log.
+struct SourceStatus {
+  LinkState link = LinkState::connecting;
+  bool finished = false;          ///< the device said that the program is finished, and every record was delivered
+  bool gap = false;               ///< records were lost in the device and cannot be had again
+  std::uint32_t run_id = 0;       ///< the device's run; another value means that numbering has restarted; 0 = unknown
+  std::uint64_t records = 0;      ///< good records received, resent ones included
+  std::uint64_t duplicates = 0;
+  std::uint64_t damaged = 0;      ///< records or frames whose check sum or sequence was wrong
+  std::uint64_t resends = 0;      ///< how often records were asked for again
+  std::uint64_t reconnects = 0;
+  std::uint32_t consecutive_faults = 0;  ///< 0 after any good exchange
+  std::string last_fault;         ///< the newest fault in words; empty = none so far
+};
+
+/// Where probe points come from: a machine or a recording. One thread owns it.
+/// It delivers every record once, in rising sequence order, whatever the link does in between; a jump in the sequence
+/// happens only where the device itself has lost records, and then status().gap is set.
+class ProbeSource {
+ public:
+  virtual ~ProbeSource() = default;
+
+  /// Connects and asks for the records after `after` (0 = from the first). A device that is missing, busy, of another
+  /// map version or of a wrong word order is an error here; later losses of the link are mended by the source itself.
+  [[nodiscard]] virtual SourceError open(std::uint32_t after) = 0;
+
+  /// Waits for at most `timeout` and writes the next records to `points`. Returns how many; 0 is no error.
+  [[nodiscard]] virtual std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) = 0;
+
+  /// Tells the device that every record up to `sequence` is safely stored. Sent with the next poll() at the latest.
+  virtual void acknowledge(std::uint32_t sequence) = 0;
+
+  /// Sends what is still to be acknowledged, asks the device to stop, closes the link. Takes at most one second.
+  virtual void close() = 0;
+
+  [[nodiscard]] virtual const SourceStatus& status() const = 0;
+};
+
+}  // namespace bladefit
