@@ -43,7 +43,8 @@ struct ImagePatch {
 /// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
 /// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w).
 struct ImageSpan {
-  std::uint32_t patch, iu, iv, reserved;
+  std::uint32_t patch, iu, iv;
+  std::uint32_t leaf;        ///< index of the node whose leaf it is
   std::uint64_t first_coefficient;
   double cone_axis[3];       ///< every outward normal of the span is within the cone about this unit axis
   double cone_cosine;        ///< cosine of the half angle; -1 where no bound is known
@@ -53,7 +54,7 @@ struct ImageSpan {
 struct ImageNode {
   double box_min[3], box_max[3];  ///< contains every control point below it [mm]
   std::uint32_t right;            ///< index of the right child; 0 for a leaf
-  std::uint32_t span;             ///< of a leaf
+  std::uint32_t span;             ///< of a leaf; 0 in inner nodes
 };
 
 static_assert(sizeof(ImageHeader) == 160 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 && sizeof(ImageNode) == 56);

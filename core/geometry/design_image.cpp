@@ -1,0 +1,173 @@
+#include "core/geometry/design_image.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace bladefit {
+namespace {
+
+constexpr std::array<std::uint32_t, 256> make_crc_table() {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t n = 0; n < 256; ++n) {
+    std::uint32_t c = n;
+    for (int k = 0; k < 8; ++k) c = (c & 1U) != 0 ? 0xEDB88320U ^ (c >> 1U) : c >> 1U;
+    table[n] = c;
+  }
+  return table;
+}
+constexpr std::array<std::uint32_t, 256> kCrcTable = make_crc_table();
+
+std::uint32_t crc_update(std::uint32_t crc, std::span<const std::byte> bytes) {
+  for (const std::byte b : bytes) crc = kCrcTable[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xFFU] ^ (crc >> 8U);
+  return crc;
+}
+
+/// True where `count` elements of T at `offset` lie inside the image, 8-byte aligned, behind the header.
+template <class T>
+bool array_fits(std::uint64_t offset, std::uint64_t count, std::uint64_t total) {
+  return offset % 8 == 0 && offset >= sizeof(ImageHeader) && offset <= total && count <= (total - offset) / sizeof(T);
+}
+
+template <class T>
+std::span<const T> view(std::span<const std::byte> bytes, std::uint64_t offset, std::uint64_t count) {
+  return {reinterpret_cast<const T*>(bytes.data() + offset), static_cast<std::size_t>(count)};
+}
+
+bool finite3(const double (&x)[3]) { return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]); }
+
+bool breaks_valid(std::span<const double> breaks, std::uint64_t first, std::uint64_t spans) {
+  if (first > breaks.size() || spans + 1 > breaks.size() - first) return false;
+  const auto b = breaks.subspan(first, spans + 1);
+  for (std::size_t i = 0; i + 1 < b.size(); ++i) {
+    if (!(b[i] < b[i + 1])) return false;
+  }
+  return b.front() == 0.0 && b.back() == 1.0;
+}
+
+bool patches_valid(const DesignImage& image) {
+  std::uint64_t next_span = 0;
+  for (const ImagePatch& p : image.patches()) {
+    const bool degrees = p.degree_u >= 1 && p.degree_u <= kMaxDegree && p.degree_v >= 1 && p.degree_v <= kMaxDegree;
+    const bool spans = p.spans_u >= 1 && p.spans_v >= 1 && p.first_span == next_span;
+    if (!degrees || !spans || p.rational > 1) return false;
+    next_span += static_cast<std::uint64_t>(p.spans_u) * p.spans_v;
+    if (next_span > image.spans().size()) return false;
+    if (!breaks_valid(image.breaks(), p.first_break_u, p.spans_u)) return false;
+    if (!breaks_valid(image.breaks(), p.first_break_v, p.spans_v)) return false;
+  }
+  return next_span == image.spans().size();
+}
+
+bool cone_valid(const ImageSpan& s) {
+  if (!finite3(s.cone_axis) || !(s.cone_cosine >= -1.0 && s.cone_cosine <= 1.0)) return false;
+  const double n2 = s.cone_axis[0] * s.cone_axis[0] + s.cone_axis[1] * s.cone_axis[1] + s.cone_axis[2] * s.cone_axis[2];
+  return s.cone_cosine == -1.0 || std::abs(n2 - 1.0) < 1e-9;
+}
+
+/// Control points finite, weights positive, and inside the leaf's box, which the search relies on.
+bool net_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p) {
+  const std::uint64_t count = static_cast<std::uint64_t>(p.degree_u + 1) * (p.degree_v + 1);
+  const auto coefficients = image.coefficients();
+  if (s.first_coefficient > coefficients.size() || 4 * count > coefficients.size() - s.first_coefficient) return false;
+  const ImageNode& leaf = image.nodes()[s.leaf];
+  for (const double* c = &coefficients[s.first_coefficient]; c != &coefficients[s.first_coefficient] + 4 * count; c += 4) {
+    const double w = c[3];
+    if (!(w > 0.0) || !std::isfinite(w) || (p.rational == 0 && w != 1.0)) return false;
+    for (int k = 0; k < 3; ++k) {
+      if (!(c[k] / w >= leaf.box_min[k] && c[k] / w <= leaf.box_max[k])) return false;
+    }
+  }
+  return true;
+}
+
+bool spans_valid(const DesignImage& image) {
+  for (std::size_t i = 0; i < image.spans().size(); ++i) {
+    const ImageSpan& s = image.spans()[i];
+    if (s.patch >= image.patches().size()) return false;
+    const ImagePatch& p = image.patches()[s.patch];
+    if (s.iu >= p.spans_u || s.iv >= p.spans_v || i != p.first_span + static_cast<std::uint64_t>(s.iu) * p.spans_v + s.iv)
+      return false;
+    if (s.leaf >= image.nodes().size() || image.nodes()[s.leaf].right != 0 || image.nodes()[s.leaf].span != i) return false;
+    if (!cone_valid(s) || !net_valid(image, s, p)) return false;
+  }
+  return true;
+}
+
+bool contains(const ImageNode& outer, const ImageNode& inner) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(inner.box_min[k] >= outer.box_min[k] && inner.box_max[k] <= outer.box_max[k])) return false;
+  }
+  return true;
+}
+
+/// A full binary tree in depth-first order, boxes nested, no deeper than kMaxTreeDepth.
+bool tree_valid(std::span<const ImageNode> nodes, std::size_t span_count) {
+  if (nodes.size() != 2 * span_count - 1) return false;
+  std::array<std::uint32_t, kMaxTreeDepth> pending{};  // right children still to come, innermost last
+  std::size_t depth = 0;
+  for (std::uint32_t k = 0; k < nodes.size(); ++k) {
+    const ImageNode& node = nodes[k];
+    if (!finite3(node.box_min) || !finite3(node.box_max)) return false;
+    if (node.right == 0) {
+      if (node.span >= span_count) return false;
+      if (depth == 0) return k + 1 == nodes.size();
+      if (pending[--depth] != k + 1) return false;
+      continue;
+    }
+    if (node.right <= k + 1 || node.right >= nodes.size() || depth == pending.size()) return false;
+    if (!contains(node, nodes[k + 1]) || !contains(node, nodes[node.right])) return false;
+    pending[depth++] = node.right;
+  }
+  return false;
+}
+
+Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
+  if (std::memcmp(h.magic, kImageMagic, sizeof kImageMagic) != 0) return Status::bad_magic;
+  if (h.version != kImageVersion) return Status::bad_version;
+  if (h.total_size != bytes.size()) return Status::bad_length;
+  if (image_crc(bytes) != h.crc32) return Status::bad_crc;
+  const bool arrays = array_fits<ImagePatch>(h.patches_offset, h.patch_count, h.total_size) &&
+                      array_fits<ImageSpan>(h.spans_offset, h.span_count, h.total_size) &&
+                      array_fits<ImageNode>(h.nodes_offset, h.node_count, h.total_size) &&
+                      array_fits<double>(h.breaks_offset, h.break_count, h.total_size) &&
+                      array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size);
+  const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.node_count >= 1;
+  const bool fields = h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && finite3(h.box_min) && finite3(h.box_max);
+  return arrays && counts && fields ? Status::ok : Status::bad_content;
+}
+
+}  // namespace
+
+std::uint32_t image_crc(std::span<const std::byte> image) {
+  constexpr std::size_t field = offsetof(ImageHeader, crc32);
+  constexpr std::array<std::byte, sizeof(std::uint32_t)> zero{};
+  if (image.size() < field + zero.size()) return 0;
+  std::uint32_t crc = crc_update(0xFFFFFFFFU, image.first(field));
+  crc = crc_update(crc, zero);
+  return ~crc_update(crc, image.subspan(field + zero.size()));
+}
+
+Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {
+  if (bytes.data() == nullptr) return Status::null_argument;
+  if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) return Status::misaligned;
+  if (bytes.size() >= sizeof kImageMagic && std::memcmp(bytes.data(), kImageMagic, sizeof kImageMagic) != 0)
+    return Status::bad_magic;
+  if (bytes.size() < sizeof(ImageHeader)) return Status::bad_length;
+
+  DesignImage candidate;
+  candidate.header_ = reinterpret_cast<const ImageHeader*>(bytes.data());
+  const ImageHeader& h = *candidate.header_;
+  if (const Status status = header_status(bytes, h); status != Status::ok) return status;
+  candidate.patches_ = view<ImagePatch>(bytes, h.patches_offset, h.patch_count);
+  candidate.spans_ = view<ImageSpan>(bytes, h.spans_offset, h.span_count);
+  candidate.nodes_ = view<ImageNode>(bytes, h.nodes_offset, h.node_count);
+  candidate.breaks_ = view<double>(bytes, h.breaks_offset, h.break_count);
+  candidate.coefficients_ = view<double>(bytes, h.coefficients_offset, h.coefficient_count);
+  if (!tree_valid(candidate.nodes_, candidate.spans_.size()) || !patches_valid(candidate) || !spans_valid(candidate))
+    return Status::bad_content;
+  image = candidate;
+  return Status::ok;
+}
+
+}  // namespace bladefit
