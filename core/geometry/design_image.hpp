@@ -57,7 +57,7 @@ struct ImageNode {
   std::uint32_t span;             ///< of a leaf; 0 in inner nodes
 };
 
-static_assert(sizeof(ImageHeader) == 160 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 && sizeof(ImageNode) == 56);
+static_assert(sizeof(ImageHeader) == 144 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 && sizeof(ImageNode) == 56);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.
 [[nodiscard]] std::uint32_t image_crc(std::span<const std::byte> image);

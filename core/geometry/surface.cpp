@@ -1,0 +1,76 @@
+#include "core/geometry/surface.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace bladefit {
+
+SpanDomain Surface::domain(std::uint32_t span_index) const {
+  const ImageSpan& s = span(span_index);
+  const ImagePatch& p = image_.patches()[s.patch];
+  const double* bu = image_.breaks().data() + p.first_break_u + s.iu;
+  const double* bv = image_.breaks().data() + p.first_break_v + s.iv;
+  return {bu[0], bu[1], bv[0], bv[1]};
+}
+
+SurfacePoint Surface::evaluate(const SurfacePlace& place) const {
+  const ImagePatch& p = patch_of(place.span);
+  const SpanDomain d = domain(place.span);
+  const double scale_u = 1.0 / (d.u_max - d.u_min), scale_v = 1.0 / (d.v_max - d.v_min);
+  HomogeneousDerivatives h;
+  evaluate_bezier(net(place.span), p.degree_u, p.degree_v, (place.u - d.u_min) * scale_u, (place.v - d.v_min) * scale_v, h);
+  const double uu = scale_u * scale_u, uv = scale_u * scale_v, vv = scale_v * scale_v;
+  SurfacePoint out{h.a.head<3>(),         h.a_u.head<3>() * scale_u, h.a_v.head<3>() * scale_v,
+                   h.a_uu.head<3>() * uu, h.a_uv.head<3>() * uv,     h.a_vv.head<3>() * vv};
+  if (p.rational == 0) return out;
+
+  // Quotient rule on A / w.
+  const double inverse = 1.0 / h.a[3];
+  const double w_u = h.a_u[3] * scale_u, w_v = h.a_v[3] * scale_v;
+  out.s *= inverse;
+  out.s_u = (out.s_u - w_u * out.s) * inverse;
+  out.s_v = (out.s_v - w_v * out.s) * inverse;
+  out.s_uu = (out.s_uu - 2.0 * w_u * out.s_u - h.a_uu[3] * uu * out.s) * inverse;
+  out.s_uv = (out.s_uv - w_u * out.s_v - w_v * out.s_u - h.a_uv[3] * uv * out.s) * inverse;
+  out.s_vv = (out.s_vv - 2.0 * w_v * out.s_v - h.a_vv[3] * vv * out.s) * inverse;
+  return out;
+}
+
+void Surface::settle(SurfacePlace& place) const {
+  const ImageSpan& s = span(place.span);
+  const ImagePatch& p = image_.patches()[s.patch];
+  const double* bu = image_.breaks().data() + p.first_break_u;
+  const double* bv = image_.breaks().data() + p.first_break_v;
+  std::uint32_t iu = s.iu, iv = s.iv;
+  while (iu > 0 && place.u < bu[iu]) --iu;
+  while (iu + 1 < p.spans_u && place.u > bu[iu + 1]) ++iu;
+  while (iv > 0 && place.v < bv[iv]) --iv;
+  while (iv + 1 < p.spans_v && place.v > bv[iv + 1]) ++iv;
+  place.span = p.first_span + iu * p.spans_v + iv;
+}
+
+SurfacePlace Surface::place_at(std::uint32_t patch, double u, double v) const {
+  SurfacePlace place{image_.patches()[patch].first_span, u, v};
+  settle(place);
+  return place;
+}
+
+Vec3 Surface::normal(const SurfacePlace& place, const SurfacePoint& point) const {
+  const auto outward = static_cast<double>(image_.header().outward);
+  const Vec3 cross = point.s_u.cross(point.s_v);
+  const double length = cross.norm();
+  if (length > 1e-12 * (point.s_u.squaredNorm() + point.s_v.squaredNorm())) return (outward / length) * cross;
+  SurfacePlace inside{place.span, place.u + 1e-6 * (0.5 - place.u), place.v + 1e-6 * (0.5 - place.v)};
+  settle(inside);
+  const SurfacePoint moved = evaluate(inside);
+  const Vec3 other = moved.s_u.cross(moved.s_v);
+  return other.squaredNorm() > 0.0 ? Vec3(outward * other.normalized()) : Vec3(Vec3::UnitZ());
+}
+
+double Surface::half_diagonal() const {
+  const ImageHeader& h = image_.header();
+  return 0.5 * std::hypot(h.box_max[0] - h.box_min[0], h.box_max[1] - h.box_min[1], h.box_max[2] - h.box_min[2]);
+}
+
+}  // namespace bladefit

@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+
+#include "core/geometry/bezier.hpp"
+#include "core/geometry/design_image.hpp"
+#include "core/geometry/foot.hpp"
+
+namespace bladefit {
+
+/// A place on the design: a span and normalised patch parameters inside it.
+struct SurfacePlace {
+  std::uint32_t span = 0;
+  double u = 0, v = 0;
+};
+
+/// Position [mm] and derivatives with respect to the normalised patch parameters.
+struct SurfacePoint {
+  Vec3 s, s_u, s_v, s_uu, s_uv, s_vv;
+};
+
+/// Rectangle of one span in the normalised parameters of its patch.
+struct SpanDomain {
+  double u_min, u_max, v_min, v_max;
+};
+
+/// The design surface of a validated image. A view: the image's memory must outlive it.
+class Surface {
+ public:
+  explicit Surface(const DesignImage& image) : image_(image) {}
+
+  [[nodiscard]] const DesignImage& image() const { return image_; }
+  [[nodiscard]] const ImageSpan& span(std::uint32_t index) const { return image_.spans()[index]; }
+  [[nodiscard]] const ImagePatch& patch_of(std::uint32_t span_index) const { return image_.patches()[span(span_index).patch]; }
+  [[nodiscard]] const double* net(std::uint32_t span_index) const {
+    return image_.coefficients().data() + span(span_index).first_coefficient;
+  }
+  [[nodiscard]] SpanDomain domain(std::uint32_t span_index) const;
+
+  /// Evaluates at `place`, which must lie inside its span. Cost: one Bezier evaluation (thesis 3-4).
+  [[nodiscard]] SurfacePoint evaluate(const SurfacePlace& place) const;
+
+  /// Sets place.span to the span of the same patch that holds (u, v), walking from the present one.
+  /// Cost: one step a span crossed, at most spans_u + spans_v.
+  void settle(SurfacePlace& place) const;
+
+  /// The place at (u, v) of a patch. Cost: linear in the number of spans of a row and a column.
+  [[nodiscard]] SurfacePlace place_at(std::uint32_t patch, double u, double v) const;
+
+  /// Outward unit normal; where the parametrisation is degenerate (Su x Sv = 0), that of a place a little further inside.
+  [[nodiscard]] Vec3 normal(const SurfacePlace& place, const SurfacePoint& point) const;
+
+  /// Half the diagonal of the box of the control points [mm]: the scale of all tolerances.
+  [[nodiscard]] double half_diagonal() const;
+
+ private:
+  DesignImage image_;
+};
+
+}  // namespace bladefit
