@@ -1,0 +1,212 @@
+#include "core/geometry/global_projection.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/geometry/distance_certificate.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Answers are proven to within this [half diagonals].
+constexpr double kSlack = 1e-10;
+/// Rectangles are not cut below 2^-kMaxCuts of a span.
+constexpr std::uint32_t kMaxCuts = 60;
+
+double box_distance(const ImageNode& node, const Vec3& r) {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double d = std::max({node.box_min[k] - r[k], r[k] - node.box_max[k], 0.0});
+    sum += d * d;
+  }
+  return std::sqrt(sum);
+}
+
+struct Piece {
+  LocalRect rect;
+  std::uint32_t cuts = 0;
+};
+
+class Search {
+ public:
+  Search(const Surface& surface, const ProjectionQuery& query)
+      : surface_(surface), query_(query), directed_(query.approach.squaredNorm() > 0.5), slack_(kSlack * surface.half_diagonal()) {}
+
+  void consider(const Projection& candidate) {
+    if (!candidate.converged || !faces_probe(surface_, candidate, query_.approach)) return;
+    const double distance = std::sqrt(candidate.distance_squared());
+    if (found_ && distance >= best_distance_) return;
+    result_.nearest = candidate;
+    best_distance_ = distance;
+    found_ = true;
+  }
+
+  /// Depth first, the nearer child first.
+  void run() {
+    struct Entry {
+      std::uint32_t node;
+      double distance;
+    };
+    const auto nodes = surface_.image().nodes();
+    std::array<Entry, kMaxTreeDepth + 1> stack;
+    std::size_t size = 0;
+    stack[size++] = {0, box_distance(nodes[0], query_.point)};
+    while (size > 0 && !exhausted_) {
+      const Entry entry = stack[--size];
+      if (found_ && entry.distance >= best_distance_ - slack_) continue;
+      const ImageNode& node = nodes[entry.node];
+      if (node.right == 0) {
+        search_span(node.span);
+        continue;
+      }
+      Entry near{entry.node + 1, box_distance(nodes[entry.node + 1], query_.point)};
+      Entry far{node.right, box_distance(nodes[node.right], query_.point)};
+      if (far.distance < near.distance) std::swap(near, far);
+      stack[size++] = far;
+      stack[size++] = near;
+    }
+  }
+
+  [[nodiscard]] bool found() const { return found_; }
+  [[nodiscard]] GlobalProjection result() const {
+    GlobalProjection out = result_;
+    out.proven = found_ && !exhausted_;
+    return out;
+  }
+
+ private:
+  /// No normal of the span faces the probe.
+  [[nodiscard]] bool averted(const ImageSpan& span) const {
+    if (!directed_ || span.cone_cosine <= 0.0) return false;
+    const double along = span.cone_axis[0] * query_.approach[0] + span.cone_axis[1] * query_.approach[1] +
+                         span.cone_axis[2] * query_.approach[2];
+    return along > 0.0 && along * along >= 1.0 - span.cone_cosine * span.cone_cosine;
+  }
+
+  [[nodiscard]] SurfacePlace middle(std::uint32_t span, const LocalRect& rect) const {
+    const SpanDomain d = surface_.domain(span);
+    return {span, d.u_min + 0.5 * (rect.s_min + rect.s_max) * (d.u_max - d.u_min),
+            d.v_min + 0.5 * (rect.t_min + rect.t_max) * (d.v_max - d.v_min)};
+  }
+
+  [[nodiscard]] ParameterLimits limits_of(std::uint32_t span, const LocalRect& rect) const {
+    const SpanDomain d = surface_.domain(span);
+    const auto at = [](double low, double high, double x) { return x <= 0.0 ? low : x >= 1.0 ? high : low + x * (high - low); };
+    return {at(d.u_min, d.u_max, rect.s_min), at(d.u_min, d.u_max, rect.s_max), at(d.v_min, d.v_max, rect.t_min),
+            at(d.v_min, d.v_max, rect.t_max)};
+  }
+
+  void search_span(std::uint32_t span) {
+    if (averted(surface_.span(span))) return;
+    if (!found_) consider(project_local(surface_, query_.point, middle(span, {})));
+    const ImagePatch& patch = surface_.patch_of(span);
+    std::array<Piece, kMaxCuts + 2> stack;
+    std::size_t size = 0;
+    stack[size++] = {};
+    BezierNet net;
+    while (size > 0) {
+      if (++result_.pieces > kMaxPieces) {
+        exhausted_ = true;
+        return;
+      }
+      const Piece piece = stack[--size];
+      restrict_net(surface_.net(span), patch.degree_u, patch.degree_v, piece.rect, net);
+      if (settled(span, piece, net)) continue;
+      if (piece.cuts >= kMaxCuts) {
+        exhausted_ = true;
+        continue;
+      }
+      cut(net, piece, stack[size], stack[size + 1]);
+      size += 2;
+    }
+  }
+
+  /// True where nothing in the piece can better the best, or its only minimum was found and considered.
+  bool settled(std::uint32_t span, const Piece& piece, const BezierNet& net) {
+    if (found_ && beyond_plane(net, query_.point, best_distance_ - slack_)) return true;
+    const DistanceCertificate certificate = certificate_at(net, found_ ? best_distance_ : 0.0);
+    if (found_ && certificate.farther) return true;
+    if (!certificate.convex) return false;
+
+    const ParameterLimits limits = limits_of(span, piece.rect);
+    const Projection least = project_local(surface_, query_.point, start_in(span, limits, piece.rect), limits);
+    if (!least.converged) return false;
+    // For rational pieces convexity depends on the bound: the proof needs it at the distance of the minimum itself.
+    if (surface_.patch_of(span).rational != 0 && !certificate_at(net, std::sqrt(least.distance_squared())).convex &&
+        !(found_ && std::sqrt(least.distance_squared()) >= best_distance_))
+      return false;
+    if (held_inside(least, limits)) return true;  // falls towards a neighbouring piece, which will find it
+    consider(least);
+    return true;
+  }
+
+  [[nodiscard]] DistanceCertificate certificate_at(const BezierNet& net, double bound) const {
+    return certify_distance(net, query_.point, bound, slack_ * (2.0 * bound + slack_));
+  }
+
+  /// Where the best foot lies in the piece's span, start from there: then one or two evaluations confirm it.
+  [[nodiscard]] SurfacePlace start_in(std::uint32_t span, const ParameterLimits& limits, const LocalRect& rect) const {
+    if (!found_ || result_.nearest.place.span != span) return middle(span, rect);
+    const SurfacePlace& best = result_.nearest.place;
+    return {span, std::clamp(best.u, limits.u_min, limits.u_max), std::clamp(best.v, limits.v_min, limits.v_max)};
+  }
+
+  /// Held at a limit that is not an edge of the patch.
+  [[nodiscard]] static bool held_inside(const Projection& p, const ParameterLimits& limits) {
+    const bool u = p.fixed_u && ((p.place.u == limits.u_min && limits.u_min > 0.0) || (p.place.u == limits.u_max && limits.u_max < 1.0));
+    const bool v = p.fixed_v && ((p.place.v == limits.v_min && limits.v_min > 0.0) || (p.place.v == limits.v_max && limits.v_max < 1.0));
+    return u || v;
+  }
+
+  /// Halves the piece across its longer side.
+  static void cut(const BezierNet& net, const Piece& piece, Piece& first, Piece& second) {
+    const auto place = [](const Homogeneous& h) { return Vec3(h.head<3>() / h[3]); };
+    const Vec3 a = place(net.at(0, 0)), b = place(net.at(net.degree_u, 0)), c = place(net.at(0, net.degree_v)),
+               d = place(net.at(net.degree_u, net.degree_v));
+    const bool along_u = (b - a).squaredNorm() + (d - c).squaredNorm() >= (c - a).squaredNorm() + (d - b).squaredNorm();
+    first = second = {piece.rect, piece.cuts + 1};
+    if (along_u) {
+      first.rect.s_max = second.rect.s_min = 0.5 * (piece.rect.s_min + piece.rect.s_max);
+    } else {
+      first.rect.t_max = second.rect.t_min = 0.5 * (piece.rect.t_min + piece.rect.t_max);
+    }
+  }
+
+  const Surface& surface_;
+  const ProjectionQuery& query_;
+  bool directed_;
+  double slack_;
+  bool found_ = false;
+  bool exhausted_ = false;
+  double best_distance_ = 0.0;
+  GlobalProjection result_;
+};
+
+GlobalProjection search(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
+  Search search(surface, query);
+  if (hint != nullptr) search.consider(*hint);
+  search.run();
+  return search.result();
+}
+
+}  // namespace
+
+bool faces_probe(const Surface& surface, const Projection& projection, const Vec3& approach) {
+  if (approach.squaredNorm() < 0.5) return true;
+  return surface.normal(projection.place, projection.at).dot(approach) < 0.0;
+}
+
+GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
+  GlobalProjection directed = search(surface, query, hint);
+  if (directed.nearest.converged) return directed;
+  const ProjectionQuery undirected{query.point, Vec3::Zero()};
+  GlobalProjection any = search(surface, undirected, hint);
+  any.proven = any.proven && directed.pieces <= kMaxPieces;
+  any.pieces += directed.pieces;
+  any.faces = false;
+  return any;
+}
+
+}  // namespace bladefit
