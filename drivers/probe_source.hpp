@@ -19,16 +19,16 @@ struct SourceError {
 /// Published state of a source, for the panel and the log.
 struct SourceStatus {
   LinkState link = LinkState::connecting;
-  bool finished = false;          ///< the device said that the program is finished, and every record was delivered
-  bool gap = false;               ///< records were lost in the device and cannot be had again
-  std::uint32_t run_id = 0;       ///< the device's run; another value means that numbering has restarted; 0 = unknown
-  std::uint64_t records = 0;      ///< good records received, resent ones included
+  bool finished = false;      ///< the device said that the program is finished, and every record was delivered
+  bool gap = false;           ///< records were lost in the device and cannot be had again
+  std::uint32_t run_id = 0;   ///< the device's run; another value means that numbering has restarted; 0 = unknown
+  std::uint64_t records = 0;  ///< good records received, resent ones included
   std::uint64_t duplicates = 0;
-  std::uint64_t damaged = 0;      ///< records or frames whose check sum or sequence was wrong
-  std::uint64_t resends = 0;      ///< how often records were asked for again
+  std::uint64_t damaged = 0;  ///< records or frames whose check sum or sequence was wrong
+  std::uint64_t resends = 0;  ///< how often records were asked for again
   std::uint64_t reconnects = 0;
   std::uint32_t consecutive_faults = 0;  ///< 0 after any good exchange
-  std::string last_fault;         ///< the newest fault in words; empty = none so far
+  std::string last_fault;                ///< the newest fault in words; empty = none so far
 };
 
 /// Where probe points come from: a machine or a recording. One thread owns it.

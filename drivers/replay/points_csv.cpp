@@ -1,0 +1,196 @@
+#include "drivers/replay/points_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "drivers/direction.hpp"
+#include "drivers/text_number.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::array<std::string_view, 7> kColumns = {"x", "y", "z", "i", "j", "k", "path"};
+constexpr std::size_t kPathColumn = 6;
+constexpr std::size_t kMaxFileSize = std::size_t{1} << 30U;
+constexpr std::size_t kQuotedCharacters = 40;
+constexpr std::string_view kHeaderMend = "the first line must name the columns: x,y,z[,i,j,k][,path]";
+
+/// Where an error is, and how to say so.
+struct Place {
+  std::string_view name;
+  std::size_t line = 0;
+
+  [[nodiscard]] std::string say(std::string_view what) const { return fmt::format("{}:{}: {}", name, line, what); }
+};
+
+/// Column of the file -> index in kColumns.
+using Header = std::vector<std::size_t>;
+
+std::string quoted(std::string_view text) {
+  return fmt::format("'{}{}'", text.substr(0, kQuotedCharacters), text.size() > kQuotedCharacters ? "..." : "");
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::string unknown_column(const Place& place, std::string_view cell, std::string_view line) {
+  if (line.find(';') != std::string_view::npos) {
+    return place.say(fmt::format("the columns are separated by ';'; separate them by ','"));
+  }
+  if (parse_finite(cell))
+    return place.say(fmt::format("a number, {}, stands where a column's name should; {}", quoted(cell), kHeaderMend));
+  return place.say(fmt::format("unknown column {}; {}", quoted(cell), kHeaderMend));
+}
+
+/// Reads the line of column names. Returns the error, empty = none.
+std::string parse_header(const Place& place, std::string_view line, Header& header) {
+  std::array<bool, kColumns.size()> seen{};
+  for (const std::string_view cell : cells_of(line)) {
+    std::size_t column = 0;
+    while (column < kColumns.size() && kColumns[column] != cell) ++column;
+    if (column == kColumns.size()) return unknown_column(place, cell, line);
+    if (seen[column]) return place.say(fmt::format("column {} is named twice; {}", quoted(cell), kHeaderMend));
+    seen[column] = true;
+    header.push_back(column);
+  }
+  const bool any_direction = seen[3] || seen[4] || seen[5];
+  for (std::size_t column = 0; column < kPathColumn; ++column) {
+    const bool needed = column < 3 || any_direction;
+    if (needed && !seen[column])
+      return place.say(fmt::format("column '{}' is missing; {}", kColumns[column], kHeaderMend));
+  }
+  return {};
+}
+
+std::string parse_path(const Place& place, std::string_view cell, ProbePoint& point) {
+  const std::optional<std::uint16_t> path = parse_whole<std::uint16_t>(cell);
+  if (!path) return place.say(fmt::format("column path: {} is not a whole number 0..65535", quoted(cell)));
+  point.path = *path;
+  return {};
+}
+
+std::string parse_coordinate(const Place& place, std::string_view cell, std::size_t column, double mm_per_unit,
+                             ProbePoint& point) {
+  const std::optional<double> value = parse_finite(cell);
+  const std::string_view name = kColumns[column];
+  if (!value)
+    return place.say(fmt::format("column {}: {} is not a finite number; write it like -12.345", name, quoted(cell)));
+  if (column >= 3) {
+    point.approach[column - 3] = *value;
+    return {};
+  }
+  point.position[column] = *value * mm_per_unit;
+  if (std::isfinite(point.position[column])) return {};
+  return place.say(fmt::format("column {}: {} is too large", name, quoted(cell)));
+}
+
+/// Reads one line of numbers. Returns the error, empty = none.
+std::string parse_point(const Place& place, std::string_view line, const Header& header, double mm_per_unit,
+                        ProbePoint& point) {
+  const std::vector<std::string_view> cells = cells_of(line);
+  if (cells.size() != header.size()) {
+    return place.say(fmt::format("{} columns where the first line names {}", cells.size(), header.size()));
+  }
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    std::string error = header[cell] == kPathColumn
+                            ? parse_path(place, cells[cell], point)
+                            : parse_coordinate(place, cells[cell], header[cell], mm_per_unit, point);
+    if (!error.empty()) return error;
+  }
+  const double length = length_of(point.approach);
+  if (normalise_direction(point.approach)) return {};
+  return place.say(fmt::format(
+      "columns i,j,k: the direction has the length {:.6g}; make it a unit vector, or 0,0,0 where it is unknown",
+      length));
+}
+
+/// Number of the line with the first byte that no text file has; 0 = none.
+std::size_t binary_line(std::string_view text) {
+  std::size_t line = 1;
+  for (const char character : text) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (byte < 0x20 && character != '\n' && character != '\r' && character != '\t') return line;
+    if (character == '\n') ++line;
+  }
+  return 0;
+}
+
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return trimmed(line);
+}
+
+PointsFile failed(std::string error) {
+  PointsFile file;
+  file.error = std::move(error);
+  return file;
+}
+
+}  // namespace
+
+PointsFile parse_points_csv(std::string_view text, std::string_view name, double mm_per_unit) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (const std::size_t line = binary_line(text); line != 0) {
+    return failed(
+        Place{name, line}.say("a control character: this is no CSV text file; give a file with the columns x,y,z"));
+  }
+  PointsFile file;
+  Header header;
+  for (Place place{name, 1}; !text.empty(); ++place.line) {
+    const std::string_view line = take_line(text);
+    if (line.empty() || line.front() == '#') continue;
+    if (header.empty()) {
+      if (std::string error = parse_header(place, line, header); !error.empty()) return failed(std::move(error));
+      continue;
+    }
+    if (file.points.size() == std::numeric_limits<std::uint32_t>::max()) return failed(place.say("too many points"));
+    ProbePoint point;
+    point.sequence = static_cast<std::uint32_t>(file.points.size() + 1);
+    if (std::string error = parse_point(place, line, header, mm_per_unit, point); !error.empty()) {
+      return failed(std::move(error));
+    }
+    file.points.push_back(point);
+  }
+  if (header.empty()) return failed(fmt::format("{}: the file is empty; {}", name, kHeaderMend));
+  if (file.points.empty())
+    return failed(fmt::format("{}: the list of points is empty; add a line for each point", name));
+  for (const std::size_t column : header) {
+    file.has_path = file.has_path || column == kPathColumn;
+    file.has_approach = file.has_approach || column == 3;
+  }
+  return file;
+}
+
+PointsFile read_points_csv(const std::string& path, double mm_per_unit) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!stream) return failed(fmt::format("{}: {}; give a readable CSV file of points", path, std::strerror(errno)));
+  std::string text;
+  std::array<char, 65536> block{};
+  while (const std::size_t count = std::fread(block.data(), 1, block.size(), stream.get())) {
+    if (text.size() + count > kMaxFileSize) return failed(fmt::format("{}: larger than 1 GiB; split the file", path));
+    text.append(block.data(), count);
+  }
+  if (std::ferror(stream.get()) != 0)
+    return failed(fmt::format("{}: {}; give a readable CSV file of points", path, std::strerror(errno)));
+  return parse_points_csv(text, path, mm_per_unit);
+}
+
+}  // namespace bladefit
