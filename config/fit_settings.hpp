@@ -1,0 +1,46 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/config_error.hpp"
+#include "core/inspection/tolerance_map.hpp"
+
+namespace bladefit {
+
+/// The window a:b of patch parameters, 0 <= a < b <= 1.
+struct ParameterWindow {
+  double low = 0, high = 1;
+};
+
+/// The fit as a file or the command line gives it. What is not set is left to the caller, so that flags win over files.
+/// Lengths are in `units`, by default those of the design file.
+struct FitSettings {
+  std::optional<std::string> mode;  ///< least_squares, minimax, range, min_tolerance or constrained
+  std::optional<std::vector<std::string>> leading_edge;  ///< boxes [PATCH:]u:a:b, each accepted by parse_leading_edge
+  std::optional<double> tolerance;                       ///< |distance| allowed at the leading edge, > 0
+  std::optional<double> rest_tolerance;                  ///< |distance| allowed elsewhere, > 0
+  std::optional<double> ratio;                           ///< rest tolerance / leading-edge tolerance, >= 1
+  std::optional<double> transition;                      ///< width of the zone between them [patch parameter], 0..1
+  std::optional<std::string> window;                     ///< a:b, accepted by parse_window
+  std::optional<std::string> outward;                    ///< +, - or auto
+  std::optional<double> probe_radius;                    ///< >= 0
+  std::optional<std::string> units;                      ///< mm or in
+  std::optional<std::string> regions;                    ///< follow or fixed
+  std::optional<std::string> edges;                      ///< skip or use
+  std::optional<bool> ignore_approach;
+};
+
+/// Reads the table [fit] of a TOML file such as config/fit.toml into `settings`.
+/// Errors: unreadable file, TOML syntax, unknown key, wrong type, out of range; then `settings` is as before.
+[[nodiscard]] ConfigError load_fit(const std::string& path, FitSettings& settings);
+
+/// A leading-edge box as on the command line: `[PATCH:]u:0.4:0.6` or `[PATCH:]v:0.4:0.6`. Without PATCH it is patch 0;
+/// the other parameter runs from 0 to 1. Error: a line that names the text and the mend.
+[[nodiscard]] ConfigError parse_leading_edge(std::string_view text, ParameterBox& box);
+
+/// A window `a:b` as on the command line. Error: a line that names the text and the mend.
+[[nodiscard]] ConfigError parse_window(std::string_view text, ParameterWindow& window);
+
+}  // namespace bladefit
