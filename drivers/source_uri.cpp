@@ -82,11 +82,11 @@ std::string source_name(const SourceSettings& settings) {
   switch (settings.kind) {
     case SourceKind::none:
       break;
-    case SourceKind::modbus_tcp: {
-      const bool bracketed = settings.tcp.host.find(':') != std::string::npos;
-      return fmt::format(bracketed ? "modbus-tcp://[{}]:{}" : "modbus-tcp://{}:{}", settings.tcp.host,
-                         settings.tcp.port);
-    }
+    case SourceKind::modbus_tcp:
+      if (settings.tcp.host.find(':') == std::string::npos) {
+        return fmt::format("modbus-tcp://{}:{}", settings.tcp.host, settings.tcp.port);
+      }
+      return fmt::format("modbus-tcp://[{}]:{}", settings.tcp.host, settings.tcp.port);
     case SourceKind::modbus_rtu:
       return "modbus-rtu:" + settings.line.device;
     case SourceKind::serial:
