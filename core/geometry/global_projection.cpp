@@ -134,9 +134,9 @@ class Search {
     const Projection least = project_local(surface_, query_.point, start_in(span, limits, piece.rect), limits);
     if (!least.converged) return false;
     // For rational pieces convexity depends on the bound: the proof needs it at the distance of the minimum itself.
-    if (surface_.patch_of(span).rational != 0 && !certificate_at(net, std::sqrt(least.distance_squared())).convex &&
-        !(found_ && std::sqrt(least.distance_squared()) >= best_distance_))
-      return false;
+    const double distance = std::sqrt(least.distance_squared());
+    const bool same_bound = found_ && std::abs(distance - best_distance_) <= slack_;
+    if (surface_.patch_of(span).rational != 0 && !same_bound && !certificate_at(net, distance).convex) return false;
     if (held_inside(least, limits)) return true;  // falls towards a neighbouring piece, which will find it
     consider(least);
     return true;

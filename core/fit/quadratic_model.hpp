@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+
+#include "core/fit/pose.hpp"
+#include "core/geometry/local_projection.hpp"
+
+namespace bladefit {
+
+/// Parameters of a motion near a reference pose: x = (L w, s) [mm], r' = pivot + exp([w]x)(r - pivot) + s.
+/// The pivot is the middle of the design and L its half diagonal, so that all six are lengths of one size.
+struct MotionFrame {
+  Vec3 pivot = Vec3::Zero();
+  double length = 1.0;  ///< L [mm]
+};
+
+[[nodiscard]] Pose moved(const Pose& pose, const Vec6& x, const MotionFrame& frame);
+[[nodiscard]] Vec6 motion_between(const Pose& from, const Pose& to, const MotionFrame& frame);
+
+/// Second-order expansion of one oriented distance in the motion parameters x.
+struct DistanceRow {
+  double distance = 0;           ///< d [mm], less the probe radius
+  Vec6 gradient = Vec6::Zero();  ///< dd/dx = [((r - pivot) x n) / L, n] (thesis 4-21)
+  Mat6 bend = Mat6::Zero();      ///< d^2 d / dx^2 [1/mm]
+};
+
+/// Row of a projection at the pose that stands `x` away from the reference. `foot` is foot_of() the projection.
+/// Cost: about 150 multiplications. The bend is exact at x = 0 (Weingarten's equations; an edge or corner foot has that of
+/// the distance to a curve or a point); elsewhere the error is of first order in |w|.
+[[nodiscard]] DistanceRow distance_row(const Projection& projection, const Foot& foot, const Vec3& r, const Vec6& x,
+                                       const MotionFrame& frame);
+
+/// Sum of 1/2 d_i^2 as a quadratic function of x about a reference pose.
+struct QuadraticModel {
+  Pose reference;
+  Mat6 gauss = Mat6::Zero();      ///< sum J J'
+  Mat6 bend = Mat6::Zero();       ///< sum d * d^2 d/dx^2: gauss + bend is the exact Hessian
+  Vec6 gradient = Vec6::Zero();   ///< at x = 0
+  double half_square = 0;         ///< sum 1/2 d^2 at x = 0
+  std::uint32_t count = 0;
+
+  /// Adds a row taken at `x`.
+  void add(const DistanceRow& row, const Vec6& x);
+  /// Value of sum 1/2 d^2 predicted at x, never below 0.
+  [[nodiscard]] double value_at(const Vec6& x) const;
+};
+
+/// The same sums about another reference, `x` away from the old one; of first order in the rotation between them.
+[[nodiscard]] QuadraticModel shifted(const QuadraticModel& model, const Pose& reference, const MotionFrame& frame);
+
+}  // namespace bladefit
