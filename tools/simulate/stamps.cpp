@@ -1,0 +1,31 @@
+#include "tools/simulate/stamps.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+
+#include "tools/simulate/failure.hpp"
+
+namespace bladefit::simulate {
+
+Stamps::Stamps(const std::string& path) {
+  if (path.empty()) return;
+  file_.reset(std::fopen(path.c_str(), "w"));
+  if (!file_) {
+    throw Failure(kExitBadInput,
+                  fmt::format("--stamp {}: {}; give a path that can be written", path, std::strerror(errno)));
+  }
+}
+
+void Stamps::note(std::uint32_t available) {
+  if (!file_ || noted_ >= available) return;
+  // The steady clock of this platform is CLOCK_MONOTONIC.
+  const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
+  const auto nanoseconds = std::chrono::duration_cast<std::chrono::nanoseconds>(since_boot).count();
+  while (noted_ < available) fmt::print(file_.get(), "{},{}\n", ++noted_, nanoseconds);
+  std::fflush(file_.get());
+}
+
+}  // namespace bladefit::simulate

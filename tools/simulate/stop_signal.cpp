@@ -1,0 +1,22 @@
+#include "tools/simulate/stop_signal.hpp"
+
+#include <sys/signalfd.h>
+
+#include "tools/simulate/failure.hpp"
+
+namespace bladefit::simulate {
+
+StopSignal::StopSignal() {
+  sigset_t stops{};
+  sigemptyset(&stops);
+  sigaddset(&stops, SIGINT);
+  sigaddset(&stops, SIGTERM);
+  sigprocmask(SIG_BLOCK, &stops, &before_);
+  std::signal(SIGPIPE, SIG_IGN);
+  descriptor_ = Descriptor(signalfd(-1, &stops, SFD_CLOEXEC | SFD_NONBLOCK));
+  if (!descriptor_) throw Failure(kExitDevice, "no descriptor left for signals; close other programs");
+}
+
+StopSignal::~StopSignal() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+
+}  // namespace bladefit::simulate
