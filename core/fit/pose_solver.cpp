@@ -1,13 +1,11 @@
 #include "core/fit/pose_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "core/fit/cholesky.hpp"
 #include "core/fit/symmetric_eigen.hpp"
 
 namespace bladefit {
-
-using Square6 = Eigen::Matrix<double, 6, 6>;
 
 Determination determine(const QuadraticModel& model, double threshold) {
   const SymmetricEigen eigen = symmetric_eigen(model.gauss);
@@ -31,18 +29,17 @@ Vec6 minimum_of(const QuadraticModel& model, const Determination& determination,
   if (determination.rank == 0) return x0;
   const Mat6& p = determination.projector;
   const Mat6 rest = Mat6::Identity() - p;
-  const Square6 hessian = model.gauss + model.bend;
+  const Mat6 hessian = model.gauss + model.bend;
   const Vec6 gradient = p * (model.gradient + hessian * x0);
-  const Square6 newton = p * hessian * p + rest;
-  const Eigen::LLT<Square6> decomposition(newton);
-  if (decomposition.info() == Eigen::Success) return x0 - p * decomposition.solve(gradient);
-  const Square6 gauss = p * model.gauss * p + rest;
-  return x0 - p * Eigen::LLT<Square6>(gauss).solve(gradient);
+  const Cholesky newton(p * hessian * p + rest);
+  if (newton.positive_definite()) return x0 - p * newton.solve(gradient);
+  const Cholesky gauss(p * model.gauss * p + rest);
+  return gauss.positive_definite() ? Vec6(x0 - p * gauss.solve(gradient)) : x0;
 }
 
 Mat6 unit_covariance(const QuadraticModel& model, const Determination& determination, double ridge) {
-  const Square6 information = model.gauss + ridge * (Mat6::Identity() - determination.projector);
-  return Eigen::LLT<Square6>(information).solve(Square6::Identity());
+  const Cholesky information(model.gauss + ridge * (Mat6::Identity() - determination.projector));
+  return information.positive_definite() ? information.inverse() : Mat6(Mat6::Identity() / ridge);
 }
 
 Mat6 pose_covariance(const Mat6& covariance_of_x, const Pose& pose, const MotionFrame& frame) {

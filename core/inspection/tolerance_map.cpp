@@ -1,0 +1,33 @@
+#include "core/inspection/tolerance_map.hpp"
+
+#include <algorithm>
+
+namespace bladefit {
+namespace {
+
+/// How far (u, v) lies outside the box, in parameter units; 0 inside.
+double outside(const ParameterBox& box, double u, double v) {
+  return std::max({box.u_min - u, u - box.u_max, box.v_min - v, v - box.v_max, 0.0});
+}
+
+}  // namespace
+
+Region region_at(const ToleranceMap& map, std::uint32_t patch, double u, double v) {
+  for (std::uint32_t k = 0; k < map.box_count; ++k) {
+    if (map.boxes[k].patch == patch && outside(map.boxes[k], u, v) == 0.0) return Region::leading_edge;
+  }
+  return Region::rest;
+}
+
+double tolerance_at(const ToleranceMap& map, std::uint32_t patch, double u, double v) {
+  double share = 1.0;  // of the way from the leading edge's tolerance to the rest's
+  for (std::uint32_t k = 0; k < map.box_count; ++k) {
+    if (map.boxes[k].patch != patch) continue;
+    const double distance = outside(map.boxes[k], u, v);
+    if (distance == 0.0) return map.leading_edge_mm;
+    if (distance < map.transition) share = std::min(share, distance / map.transition);
+  }
+  return share == 1.0 ? map.rest_mm : map.leading_edge_mm + share * (map.rest_mm - map.leading_edge_mm);
+}
+
+}  // namespace bladefit
