@@ -1,0 +1,177 @@
+#include "tools/design/iges_reader.hpp"
+
+#include <fmt/format.h>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <IGESGeom_BSplineSurface.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <gp_GTrsf.hxx>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "tools/design/cad_session.hpp"
+#include "tools/design/iges_text.hpp"
+#include "tools/design/length_unit.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Units of IGES 5.3, section 2.2.4.3.14; the flag is the place in the table, counted from 1.
+struct IgesUnit {
+  const char* code;
+  const char* name;
+  double mm;
+};
+constexpr int kNamedUnitFlag = 3;
+constexpr std::array<IgesUnit, 11> kIgesUnits = {{{"IN", "inch", 25.4},
+                                                  {"MM", "millimetre", 1.0},
+                                                  {"", "", 0.0},
+                                                  {"FT", "foot", 304.8},
+                                                  {"MI", "mile", 1609344.0},
+                                                  {"M", "metre", 1000.0},
+                                                  {"KM", "kilometre", 1e6},
+                                                  {"MIL", "mil", 0.0254},
+                                                  {"UM", "micrometre", 1e-3},
+                                                  {"CM", "centimetre", 10.0},
+                                                  {"UIN", "microinch", 25.4e-6}}};
+
+LengthUnit named_unit(const IGESData_GlobalSection& global, const std::string& file) {
+  std::string name = global.UnitName().IsNull() ? "" : global.UnitName()->ToCString();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
+  if (name == "INCH") name = "IN";
+  for (const IgesUnit& unit : kIgesUnits) {
+    if (!name.empty() && name == unit.code) return {unit.mm, unit.name};
+  }
+  throw DesignError(
+      fmt::format("{}: global section: unknown unit name \"{}\" in field 15; export the design in mm or "
+                  "inches",
+                  file, name));
+}
+
+/// Field 14 (flag) and, where the flag says so, field 15 (name) of the global section.
+LengthUnit read_unit(const IGESData_GlobalSection& global, const std::string& file) {
+  const int flag = global.UnitFlag();
+  if (flag == kNamedUnitFlag) return named_unit(global, file);
+  if (flag < 1 || flag > static_cast<int>(kIgesUnits.size())) {
+    throw DesignError(fmt::format(
+        "{}: global section: unknown unit flag {} in field 14; export the design in mm or inches", file, flag));
+  }
+  const IgesUnit& unit = kIgesUnits[static_cast<std::size_t>(flag - 1)];
+  return {unit.mm, unit.name};
+}
+
+/// Millimetres in one unit of the coordinates: the unit over the model space scale (field 13).
+double read_scale(const IGESData_GlobalSection& global, const LengthUnit& unit, DesignFile& design,
+                  const std::string& file) {
+  const double scale = global.Scale();
+  if (!std::isfinite(scale) || scale <= 0) {
+    throw DesignError(
+        fmt::format("{}: global section: model space scale {} in field 13 is not above 0; export the "
+                    "design at scale 1",
+                    file, scale));
+  }
+  if (scale == 1.0) return unit.mm;
+  design.warnings.push_back(fmt::format("model space scale {}: coordinates are divided by it", scale));
+  return unit.mm / scale;
+}
+
+SurfaceDirection read_direction(const IGESGeom_BSplineSurface& entity, bool along_u) {
+  SurfaceDirection direction;
+  direction.degree = along_u ? entity.DegreeU() : entity.DegreeV();
+  direction.control_points = along_u ? entity.NbPolesU() : entity.NbPolesV();
+  direction.start = along_u ? entity.UMin() : entity.VMin();
+  direction.end = along_u ? entity.UMax() : entity.VMax();
+  const int last_knot = direction.control_points;
+  for (int k = -direction.degree; k <= last_knot; ++k) {
+    direction.knots.push_back(along_u ? entity.KnotU(k) : entity.KnotV(k));
+  }
+  return direction;
+}
+
+NurbsSurface read_surface(const IGESGeom_BSplineSurface& entity, int directory_number, double mm) {
+  NurbsSurface surface;
+  surface.name = fmt::format("entity 128 at D{}", directory_number);
+  if (!entity.ShortLabel().IsNull()) surface.name += fmt::format(" ({})", entity.ShortLabel()->ToCString());
+  surface.u = read_direction(entity, true);
+  surface.v = read_direction(entity, false);
+  const gp_GTrsf location = entity.CompoundLocation();
+  for (int i = 0; i < surface.u.control_points; ++i) {
+    for (int j = 0; j < surface.v.control_points; ++j) {
+      gp_XYZ point = entity.Pole(i, j).XYZ();
+      if (entity.HasTransf()) location.Transforms(point);
+      surface.control_points.emplace_back(mm * point.X(), mm * point.Y(), mm * point.Z());
+      surface.weights.push_back(entity.Weight(i, j));
+    }
+  }
+  return surface;
+}
+
+std::string list_types(const IgesContents& contents) {
+  std::string list;
+  for (const auto& [type, count] : contents.type_counts) {
+    list += fmt::format("{}{} x {}", list.empty() ? "" : ", ", count, type);
+  }
+  return list.empty() ? "none" : list;
+}
+
+/// Refuses what would stand somewhere else than its coordinates say, and tells what is used otherwise than drawn.
+void check_contents(const IgesContents& contents, DesignFile& design, const std::string& file) {
+  if (contents.surfaces.empty()) {
+    throw DesignError(
+        fmt::format("{}: no B-spline surface (entity 128) in the file; entity types there: {}; export the "
+                    "blade as B-spline surfaces",
+                    file, list_types(contents)));
+  }
+  for (const int instance : {408, 412, 414, 430}) {
+    if (contents.type_counts.count(instance) > 0) {
+      throw DesignError(
+          fmt::format("{}: entity {} places copies of other entities, which is not supported; export the "
+                      "blade alone, without instances",
+                      file, instance));
+    }
+  }
+  for (const int trimmed : {143, 144}) {
+    if (contents.type_counts.count(trimmed) > 0) {
+      design.warnings.push_back(
+          fmt::format("trimmed surfaces (entity {}) are used whole, as if they were not trimmed", trimmed));
+    }
+  }
+}
+
+DesignFile read_model(const std::string& file, const IgesContents& contents) {
+  IGESControl_Reader reader;
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+    throw DesignError(fmt::format("{}: the IGES file cannot be parsed; export the design again", file));
+  }
+  const Handle(IGESData_IGESModel) model = reader.IGESModel();
+  const IGESData_GlobalSection& global = model->GlobalSection();
+  const LengthUnit unit = read_unit(global, file);
+  DesignFile design;
+  design.unit = shown_unit(unit);
+  if (const std::string note = shown_unit_note(unit); !note.empty()) design.warnings.push_back(note);
+  const double mm = read_scale(global, unit, design, file);
+  check_contents(contents, design, file);
+  for (const int directory_number : contents.surfaces) {
+    const auto entity = Handle(IGESGeom_BSplineSurface)::DownCast(model->Entity((directory_number + 1) / 2));
+    if (entity.IsNull()) {
+      throw DesignError(
+          fmt::format("{}: entity 128 at D{} cannot be parsed; export the design again", file, directory_number));
+    }
+    design.surfaces.push_back(read_surface(*entity, directory_number, mm));
+  }
+  return design;
+}
+
+}  // namespace
+
+DesignFile read_iges(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const IgesContents contents = check_iges_text(read_text(path), file);
+  return with_cad_library(file, [&] { return read_model(file, contents); });
+}
+
+}  // namespace bladefit

@@ -1,0 +1,12 @@
+#pragma once
+#include <filesystem>
+
+#include "tools/design/design_file.hpp"
+
+namespace bladefit {
+
+/// Every entity 128 of an IGES file, in the order of its directory: control points as they stand there, moved by the
+/// entity's transformation matrix and turned to mm. Surfaces are not checked yet. Throws DesignError.
+DesignFile read_iges(const std::filesystem::path& path);
+
+}  // namespace bladefit

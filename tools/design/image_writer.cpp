@@ -1,0 +1,152 @@
+#include "tools/design/image_writer.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <span>
+
+#include "tools/design/bezier_extraction.hpp"
+#include "tools/design/bounding_tree.hpp"
+#include "tools/design/design_error.hpp"
+#include "tools/design/normal_cone.hpp"
+
+namespace bladefit {
+namespace {
+
+/// The arrays of an image while it is being put together.
+struct ImageParts {
+  std::vector<ImagePatch> patches;
+  std::vector<ImageSpan> spans;
+  std::vector<ImageNode> nodes;
+  std::vector<double> breaks;
+  std::vector<double> coefficients;
+  std::vector<Box> boxes;  ///< one a span
+};
+
+/// Box of the control points; the quotients are those that whoever checks the image will compute.
+Box control_box(std::span<const double> coefficients) {
+  Box box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.min[axis] = std::numeric_limits<double>::infinity();
+    box.max[axis] = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < coefficients.size(); k += 4) {
+      const double coordinate = coefficients[k + axis] / coefficients[k + 3];
+      box.min[axis] = std::min(box.min[axis], coordinate);
+      box.max[axis] = std::max(box.max[axis], coordinate);
+    }
+  }
+  return box;
+}
+
+std::uint32_t append_breaks(const std::vector<double>& breaks, ImageParts& parts) {
+  const auto first = static_cast<std::uint32_t>(parts.breaks.size());
+  parts.breaks.insert(parts.breaks.end(), breaks.begin(), breaks.end());
+  return first;
+}
+
+void append_spans(const BezierPatch& bezier, int outward, ImageParts& parts) {
+  const auto patch = static_cast<std::uint32_t>(parts.patches.size());
+  const std::size_t count = bezier.spans_u() * bezier.spans_v();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::span<const double> net{&bezier.coefficients[k * bezier.span_size()], bezier.span_size()};
+    const NormalCone cone = normal_cone(net, bezier.degree_u, bezier.degree_v, outward);
+    ImageSpan span{};
+    span.patch = patch;
+    span.iu = static_cast<std::uint32_t>(k / bezier.spans_v());
+    span.iv = static_cast<std::uint32_t>(k % bezier.spans_v());
+    span.first_coefficient = parts.coefficients.size();
+    std::copy(cone.axis.begin(), cone.axis.end(), span.cone_axis);
+    span.cone_cosine = cone.cosine;
+    parts.spans.push_back(span);
+    parts.boxes.push_back(control_box(net));
+    parts.coefficients.insert(parts.coefficients.end(), net.begin(), net.end());
+  }
+}
+
+void append_patch(const BezierPatch& bezier, int outward, ImageParts& parts) {
+  ImagePatch patch{};
+  patch.degree_u = static_cast<std::uint32_t>(bezier.degree_u);
+  patch.degree_v = static_cast<std::uint32_t>(bezier.degree_v);
+  patch.spans_u = static_cast<std::uint32_t>(bezier.spans_u());
+  patch.spans_v = static_cast<std::uint32_t>(bezier.spans_v());
+  patch.first_span = static_cast<std::uint32_t>(parts.spans.size());
+  patch.first_break_u = append_breaks(bezier.breaks_u, parts);
+  patch.first_break_v = append_breaks(bezier.breaks_v, parts);
+  patch.rational = bezier.rational ? 1 : 0;
+  append_spans(bezier, outward, parts);
+  parts.patches.push_back(patch);
+}
+
+ImageHeader make_header(const ImageParts& parts, DesignUnit unit, int outward) {
+  ImageHeader header{};
+  std::memcpy(header.magic, kImageMagic, sizeof kImageMagic);
+  header.version = kImageVersion;
+  header.design_unit = static_cast<std::uint32_t>(unit);
+  header.outward = outward;
+  header.patch_count = static_cast<std::uint32_t>(parts.patches.size());
+  header.span_count = static_cast<std::uint32_t>(parts.spans.size());
+  header.node_count = static_cast<std::uint32_t>(parts.nodes.size());
+  header.break_count = static_cast<std::uint32_t>(parts.breaks.size());
+  header.coefficient_count = parts.coefficients.size();
+  header.patches_offset = sizeof(ImageHeader);
+  header.spans_offset = header.patches_offset + parts.patches.size() * sizeof(ImagePatch);
+  header.nodes_offset = header.spans_offset + parts.spans.size() * sizeof(ImageSpan);
+  header.breaks_offset = header.nodes_offset + parts.nodes.size() * sizeof(ImageNode);
+  header.coefficients_offset = header.breaks_offset + parts.breaks.size() * sizeof(double);
+  header.total_size = header.coefficients_offset + parts.coefficients.size() * sizeof(double);
+  std::copy_n(parts.nodes.front().box_min, 3, header.box_min);
+  std::copy_n(parts.nodes.front().box_max, 3, header.box_max);
+  return header;
+}
+
+template <class Element>
+void copy_array(const std::vector<Element>& array, std::uint64_t offset, std::vector<std::byte>& image) {
+  std::memcpy(image.data() + offset, array.data(), array.size() * sizeof(Element));
+}
+
+void seal(std::vector<std::byte>& image) {
+  const std::uint32_t crc = image_crc(image);
+  std::memcpy(image.data() + offsetof(ImageHeader, crc32), &crc, sizeof crc);
+}
+
+}  // namespace
+
+std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward) {
+  ImageParts parts;
+  for (const NurbsSurface& surface : surfaces) append_patch(extract_bezier(surface), outward, parts);
+  if (parts.spans.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
+    throw DesignError("the design has too many knot spans; export the blade with fewer knots");
+  }
+  parts.nodes = build_bounding_tree(parts.boxes);
+  for (std::uint32_t k = 0; k < parts.nodes.size(); ++k) {
+    if (parts.nodes[k].right == 0) parts.spans[parts.nodes[k].span].leaf = k;
+  }
+  const ImageHeader header = make_header(parts, unit, outward);
+  std::vector<std::byte> image(header.total_size);
+  std::memcpy(image.data(), &header, sizeof header);
+  copy_array(parts.patches, header.patches_offset, image);
+  copy_array(parts.spans, header.spans_offset, image);
+  copy_array(parts.nodes, header.nodes_offset, image);
+  copy_array(parts.breaks, header.breaks_offset, image);
+  copy_array(parts.coefficients, header.coefficients_offset, image);
+  seal(image);
+  return image;
+}
+
+void set_outward(std::vector<std::byte>& image, int outward) {
+  ImageHeader header;
+  std::memcpy(&header, image.data(), sizeof header);
+  if (header.outward == outward) return;
+  header.outward = outward;
+  std::memcpy(image.data(), &header, sizeof header);
+  for (std::uint64_t k = 0; k < header.span_count; ++k) {
+    std::byte* place = image.data() + header.spans_offset + k * sizeof(ImageSpan);
+    ImageSpan span;
+    std::memcpy(&span, place, sizeof span);
+    for (double& component : span.cone_axis) component = -component;
+    std::memcpy(place, &span, sizeof span);
+  }
+  seal(image);
+}
+
+}  // namespace bladefit

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "tools/design/design_file.hpp"
+#include "tools/design/image_writer.hpp"
+#include "tools/design/outward_side.hpp"
+
+namespace bladefit {
+namespace {
+
+std::string side_note(int sign, const std::string& reason) {
+  return fmt::format("outward side: {} (Su x Sv {}): {}", sign > 0 ? "+" : "-", sign > 0 ? "as it is" : "reversed",
+                     reason);
+}
+
+LoadedDesign load_image(const std::filesystem::path& path, OutwardOption outward) {
+  const std::string bytes = read_text(path);
+  LoadedDesign design;
+  design.image.resize(bytes.size());
+  std::memcpy(design.image.data(), bytes.data(), bytes.size());
+  DesignImage view;
+  if (const Status status = DesignImage::open(design.image, view); status != Status::ok) {
+    throw DesignError(fmt::format("{}: not a usable design image: {}; compile the design again", path.string(),
+                                  design.image.empty() ? "the file is empty" : status_text(status)));
+  }
+  const int stored = view.header().outward;
+  if (outward == OutwardOption::automatic) {
+    design.notes.push_back(side_note(stored, "as stored in the image"));
+    return design;
+  }
+  const int sign = outward == OutwardOption::plus ? 1 : -1;
+  set_outward(design.image, sign);
+  design.notes.push_back(
+      side_note(sign, sign == stored ? "as asked and as stored" : "as asked; the image had the other one"));
+  return design;
+}
+
+OutwardSide choose_side(const DesignFile& file, const std::string& name, OutwardOption outward) {
+  if (outward == OutwardOption::automatic) return find_outward_side(file.surfaces, name);
+  return {outward == OutwardOption::plus ? 1 : -1, "as asked"};
+}
+
+}  // namespace
+
+OutwardOption parse_outward(std::string_view text) {
+  if (text == "auto") return OutwardOption::automatic;
+  if (text == "+") return OutwardOption::plus;
+  if (text == "-") return OutwardOption::minus;
+  throw DesignError(fmt::format("--outward {}: unknown side; say +, - or auto", text));
+}
+
+LoadedDesign load_design(const std::filesystem::path& path, OutwardOption outward) {
+  const std::string extension = path.extension().string();
+  if (extension == ".bfd" || extension == ".BFD") return load_image(path, outward);
+  const DesignFile file = read_design(path);
+  const OutwardSide side = choose_side(file, path.string(), outward);
+  LoadedDesign design{write_image(file.surfaces, file.unit, side.sign), file.warnings};
+  design.notes.push_back(side_note(side.sign, side.reason));
+  return design;
+}
+
+}  // namespace bladefit

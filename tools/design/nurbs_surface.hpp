@@ -1,0 +1,31 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace bladefit {
+
+/// One parameter direction of a surface. Control point i weighs on the knots i .. i + degree + 1.
+struct SurfaceDirection {
+  int degree = 0;
+  int control_points = 0;
+  std::vector<double> knots;  ///< control_points + degree + 1 of them, never falling
+  double start = 0, end = 0;  ///< the part that is used, inside [knots[degree], knots[control_points]]
+};
+
+/// A NURBS surface as it stands in a CAD file, with its lengths turned to mm.
+struct NurbsSurface {
+  std::string name;  ///< for messages, for example "entity 128 at D3 (PATCH2)"
+  SurfaceDirection u, v;
+  std::vector<Eigen::Vector3d> control_points;  ///< [mm]; point (i, j) at i * v.control_points + j
+  std::vector<double> weights;                  ///< one a control point, in the same order
+};
+
+/// Checks every field of `surface` and makes knots that differ by less than 1e-12 of the range one knot, so that
+/// noise in the last digits makes no sliver spans. `file` is named in messages.
+/// Returns one line for each thing that was mended (none for a clean surface).
+/// Throws DesignError naming the field: degree, number of knots, falling or not finite knots, multiplicity, torn
+/// surface, parameter range, control points, weights.
+std::vector<std::string> check_surface(NurbsSurface& surface, const std::string& file);
+
+}  // namespace bladefit

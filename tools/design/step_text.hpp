@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace bladefit {
+
+/// Checks that `text` is a whole STEP file (ISO 10303-21) before a library parses it: first and last word, header and
+/// data section, balanced parentheses. Throws DesignError.
+void check_step_text(std::string_view text, const std::string& file);
+
+}  // namespace bladefit
