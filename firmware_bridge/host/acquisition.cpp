@@ -1,0 +1,169 @@
+#include "firmware_bridge/host/acquisition.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <thread>
+
+namespace bladefit {
+namespace {
+
+constexpr std::chrono::milliseconds kPollTimeout{10};
+constexpr std::chrono::milliseconds kRoomPause{1};
+constexpr std::chrono::milliseconds kStoreWait{100};
+constexpr std::size_t kPollPoints = 64;
+
+}  // namespace
+
+void Acquisition::run() {
+  replay_recorded();
+  SessionEnd end = SessionEnd::stopped;
+  if (!shared_.stop_requested.load() && open_source()) {
+    end = SessionEnd::running;
+    while (end == SessionEnd::running) {
+      follow_commands();
+      take_points();
+      acknowledge_stored();
+      follow_source();
+      end = end_reached();
+    }
+  }
+  finish(end);
+}
+
+void Acquisition::replay_recorded() {
+  for (const StreamEvent& event : recorded_.events) {
+    if (event.kind == EventKind::point) last_sequence_ = event.point.sequence;
+    finish_taken_ = event.kind == EventKind::finished;
+    give_to_fit({false, event});
+  }
+  recorded_.events = {};
+  shared_.stored_sequence.store(last_sequence_);
+}
+
+bool Acquisition::open_source() {
+  if (const SourceError error = source_.open(last_sequence_)) {
+    shared_.fail({Fault::device, error.message});
+    return false;
+  }
+  opened_ = true;
+  run_id_ = source_.status().run_id;
+  if (!recorded_.exists) {
+    const HostError error = journal_.start(settings_.identity, run_id_);
+    if (error) shared_.fail(error);
+    return !error;
+  }
+  if (recorded_.run_id != 0 && run_id_ != 0 && recorded_.run_id != run_id_) {
+    shared_.fail(
+        {Fault::bad_input,
+         fmt::format("the device is in run {}, the session folder holds run {}: its points have other numbers; "
+                     "name another session folder with --session",
+                     run_id_, recorded_.run_id)});
+    return false;
+  }
+  last_point_ = Clock::now();
+  return true;
+}
+
+void Acquisition::take_points() {
+  if (shared_.paused.load()) {
+    std::this_thread::sleep_for(kPollTimeout);
+    return;
+  }
+  std::array<ProbePoint, kPollPoints> points;
+  const std::size_t count = source_.poll(points, kPollTimeout);
+  for (const ProbePoint& point : std::span(points).first(count)) take_point(point);
+}
+
+void Acquisition::take_point(const ProbePoint& point) {
+  // Sources promise rising numbers; a record that breaks the promise must not reach the journal.
+  if (point.sequence <= last_sequence_) return;
+  last_sequence_ = point.sequence;
+  last_point_ = Clock::now();
+  finish_taken_ = false;
+  take({EventKind::point, point});
+}
+
+// The fit comes first: its alarm is what the operator waits for.
+void Acquisition::take(const StreamEvent& event) {
+  give_to_fit({false, event});
+  while (!shared_.to_journal.push(event) && !shared_.failed.load()) std::this_thread::sleep_for(kRoomPause);
+  shared_.journal_wakeup.signal();
+  ++taken_events_;
+}
+
+void Acquisition::give_to_fit(const FitInput& input) {
+  while (!shared_.to_fit.push(input)) std::this_thread::sleep_for(kRoomPause);
+  shared_.fit_wakeup.signal();
+}
+
+void Acquisition::follow_commands() {
+  if (!shared_.reset_requested.exchange(false)) return;
+  finish_taken_ = false;
+  take({EventKind::reset, {}});
+  shared_.notice("all points so far are forgotten, as the panel asked");
+}
+
+void Acquisition::follow_source() {
+  const SourceStatus& status = source_.status();
+  announce_changes(status);
+  shared_.link_figures.publish({status.link, status.gap, shared_.paused.load()});
+  if (!status.finished || finish_taken_) return;
+  finish_taken_ = true;
+  take({EventKind::finished, {}});
+}
+
+void Acquisition::announce_changes(const SourceStatus& status) {
+  const bool announce = status.link != announced_link_ || status.gap != announced_gap_;
+  if (status.link != announced_link_ && status.link == LinkState::lost) {
+    shared_.notice(fmt::format("link lost: {}", status.last_fault));
+  }
+  if (status.link != announced_link_ && status.link == LinkState::up) shared_.notice("link is up again");
+  if (status.gap && !announced_gap_) {
+    shared_.notice(
+        fmt::format("points were lost in the device after number {}: probe that part again", last_sequence_));
+  }
+  announced_link_ = status.link;
+  announced_gap_ = status.gap;
+  if (announce) shared_.publication_wakeup.signal();
+}
+
+bool Acquisition::run_id_has_changed() {
+  const std::uint32_t now = source_.status().run_id;
+  if (now == 0 || run_id_ == 0 || now == run_id_) return false;
+  shared_.fail({Fault::device, fmt::format("the device has left run {} and started run {}, which numbers its points "
+                                           "from 1 again; start a session in another folder for it",
+                                           run_id_, now)});
+  return true;
+}
+
+SessionEnd Acquisition::end_reached() {
+  if (run_id_has_changed() || shared_.failed.load()) return SessionEnd::failed;
+  if (shared_.stop_requested.load()) return SessionEnd::stopped;
+  if (settings_.end_when_finished && finish_taken_) return SessionEnd::finished;
+  const bool idle = settings_.idle.count() > 0 && Clock::now() - last_point_ > settings_.idle;
+  return idle && !shared_.paused.load() ? SessionEnd::idle : SessionEnd::running;
+}
+
+void Acquisition::acknowledge_stored() {
+  const std::uint32_t stored = shared_.stored_sequence.load();
+  if (stored == acknowledged_) return;
+  acknowledged_ = stored;
+  source_.acknowledge(stored);
+}
+
+void Acquisition::finish(SessionEnd end) {
+  while (shared_.stored_events.load() < taken_events_ && !shared_.failed.load()) {
+    shared_.stored_wakeup.wait(kStoreWait);
+  }
+  if (opened_) {
+    acknowledge_stored();
+    source_.close();
+  }
+  shared_.journal_closed.store(true);
+  shared_.journal_wakeup.signal();
+  give_to_fit({true, {}});
+  shared_.end.store(shared_.failed.load() ? SessionEnd::failed : end);
+}
+
+}  // namespace bladefit

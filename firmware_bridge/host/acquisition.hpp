@@ -1,0 +1,61 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "firmware_bridge/host/host_shared.hpp"
+#include "firmware_bridge/host/journal.hpp"
+
+namespace bladefit {
+
+struct AcquisitionSettings {
+  SessionIdentity identity;
+  bool end_when_finished = false;     ///< the session ends when the device says that its program is finished
+  std::chrono::milliseconds idle{0};  ///< it ends when no new point came for so long; 0 = never
+};
+
+/// Takes points from the source and gives them to the fit and to the journal; acknowledges what is on disk. Runs in
+/// the acquisition thread, which may wait for the device.
+class Acquisition {
+ public:
+  /// `recorded`: what the journal holds from before; it is given to the fit again, in the same order.
+  Acquisition(const AcquisitionSettings& settings, JournalContent recorded, ProbeSource& source, Journal& journal,
+              HostShared& shared)
+      : settings_(settings), recorded_(std::move(recorded)), source_(source), journal_(journal), shared_(shared) {}
+
+  /// Runs until the session ends; then everything taken is on disk, unless the session has failed.
+  void run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void replay_recorded();
+  [[nodiscard]] bool open_source();
+  void take_points();
+  void take_point(const ProbePoint& point);
+  void follow_commands();
+  void follow_source();
+  void announce_changes(const SourceStatus& status);
+  [[nodiscard]] bool run_id_has_changed();
+  [[nodiscard]] SessionEnd end_reached();
+  void take(const StreamEvent& event);
+  void give_to_fit(const FitInput& input);
+  void acknowledge_stored();
+  void finish(SessionEnd end);
+
+  AcquisitionSettings settings_;
+  JournalContent recorded_;
+  ProbeSource& source_;
+  Journal& journal_;
+  HostShared& shared_;
+  std::uint32_t last_sequence_ = 0;
+  std::uint32_t acknowledged_ = 0;
+  std::uint32_t run_id_ = 0;
+  std::uint64_t taken_events_ = 0;
+  bool finish_taken_ = false;
+  bool opened_ = false;
+  LinkState announced_link_ = LinkState::up;
+  bool announced_gap_ = false;
+  Clock::time_point last_point_ = Clock::now();
+};
+
+}  // namespace bladefit

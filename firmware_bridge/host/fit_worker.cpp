@@ -1,0 +1,86 @@
+#include "firmware_bridge/host/fit_worker.hpp"
+
+#include <chrono>
+
+namespace bladefit {
+namespace {
+
+constexpr std::chrono::milliseconds kWait{100};
+constexpr std::chrono::milliseconds kRoomWait{1};
+// In a burst the figures of the whole fit, which cost more than a push, may lag by so many events.
+constexpr std::uint32_t kEventsBetweenFigures = 64;
+
+}  // namespace
+
+void FitWorker::run() {
+  publish_figures();
+  FitInput input;
+  while (true) {
+    if (!shared_.to_fit.pop(input)) {
+      if (events_since_figures_ > 0) publish_figures();
+      shared_.fit_wakeup.wait(kWait);
+      continue;
+    }
+    if (input.end) break;
+    judge(input.event);
+    if (++events_since_figures_ >= kEventsBetweenFigures) publish_figures();
+  }
+  stream_.settle();
+  publish_revisions();
+  publish_figures();
+  shared_.fit_done.store(true);
+  shared_.publication_wakeup.signal();
+}
+
+void FitWorker::judge(const StreamEvent& event) {
+  switch (event.kind) {
+    case EventKind::point:
+      judge_point(event.point);
+      break;
+    case EventKind::finished:
+      stream_.settle();
+      break;
+    case EventKind::reset:
+      stream_.reset();
+      publish({true, {}});
+      break;
+  }
+  publish_revisions();
+}
+
+void FitWorker::judge_point(const ProbePoint& point) {
+  Verdict verdict;
+  const auto before = std::chrono::steady_clock::now();
+  const bool judged = stream_.push(point, verdict);
+  latency_.add(std::chrono::nanoseconds(std::chrono::steady_clock::now() - before).count());
+  if (!judged) return;
+  publish({false, verdict});
+  shared_.publication_wakeup.signal();
+  stream_.end_path();
+}
+
+void FitWorker::publish(const FitOutput& output) {
+  while (!shared_.to_publication.push(output)) {
+    shared_.publication_wakeup.signal();
+    shared_.fit_wakeup.wait(kRoomWait);
+  }
+}
+
+void FitWorker::publish_revisions() {
+  FitOutput output;
+  bool any = false;
+  while (stream_.localizer().next_revision(output.verdict)) {
+    publish(output);
+    any = true;
+  }
+  if (any) shared_.publication_wakeup.signal();
+}
+
+void FitWorker::publish_figures() {
+  constexpr double kPercentile = 0.99;
+  shared_.fit_figures.publish({stream_.localizer().fit(), latency_.quantile_us(kPercentile)});
+  events_since_figures_ = 0;
+  shared_.publication_wakeup.signal();
+}
+
+}  // namespace bladefit

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+
+#include "firmware_bridge/host/fit_stream.hpp"
+#include "firmware_bridge/host/host_shared.hpp"
+#include "firmware_bridge/host/latency_histogram.hpp"
+
+namespace bladefit {
+
+/// Judges what comes through HostShared::to_fit. Runs in the fit thread: it takes no lock and allocates nothing; it
+/// waits only when there is no point, or when the publication thread is thousands of verdicts behind.
+class FitWorker {
+ public:
+  FitWorker(Localizer& localizer, std::uint32_t path_refine_points, HostShared& shared)
+      : stream_(localizer, path_refine_points), shared_(shared) {}
+
+  /// Runs until the end of the stream; then the fit has settled and HostShared::fit_done is set.
+  void run();
+
+ private:
+  void judge(const StreamEvent& event);
+  void judge_point(const ProbePoint& point);
+  void publish(const FitOutput& output);
+  void publish_revisions();
+  void publish_figures();
+
+  FitStream stream_;
+  HostShared& shared_;
+  LatencyHistogram latency_;
+  std::uint32_t events_since_figures_ = 0;
+};
+
+}  // namespace bladefit

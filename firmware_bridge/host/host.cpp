@@ -1,0 +1,183 @@
+#include "firmware_bridge/host/host.hpp"
+
+#include <fmt/core.h>
+
+#include <cstring>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <thread>
+
+#include "firmware_bridge/host/acquisition.hpp"
+#include "firmware_bridge/host/config_digest.hpp"
+#include "firmware_bridge/host/fit_worker.hpp"
+#include "firmware_bridge/host/journal.hpp"
+#include "firmware_bridge/host/journal_writer.hpp"
+#include "firmware_bridge/host/publication.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::align_val_t kLocalizerAlignment{64};
+constexpr std::chrono::milliseconds kEndPoll{5};
+
+/// The one block that the fit works in, touched once so that no page fault comes later.
+class LocalizerMemory {
+ public:
+  explicit LocalizerMemory(std::size_t size)
+      : bytes_(static_cast<std::byte*>(::operator new(size, kLocalizerAlignment))), size_(size) {
+    std::memset(bytes_, 0, size);
+  }
+  ~LocalizerMemory() { ::operator delete(bytes_, kLocalizerAlignment); }
+  LocalizerMemory(const LocalizerMemory&) = delete;
+  LocalizerMemory& operator=(const LocalizerMemory&) = delete;
+  [[nodiscard]] std::span<std::byte> bytes() const { return {bytes_, size_}; }
+
+ private:
+  std::byte* bytes_;
+  std::size_t size_;
+};
+
+HostError check_identity(const std::string& path, const JournalContent& recorded, const SessionIdentity& wanted) {
+  if (!recorded.exists) return {};
+  if (recorded.identity.design_crc != wanted.design_crc) {
+    return {Fault::bad_input, fmt::format("{}: the session in this folder was probed against another design; name that "
+                                          "design, or another folder with --session",
+                                          path)};
+  }
+  if (recorded.identity.config_digest != wanted.config_digest) {
+    return {Fault::bad_input, fmt::format("{}: the session in this folder was started with other fit settings; repeat "
+                                          "those, or name another folder with --session",
+                                          path)};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string journal_path(const std::string& session_directory) {
+  return (std::filesystem::path(session_directory) / "journal.bin").string();
+}
+
+/// What exists while the threads run. The members that threads use come before the threads.
+struct Host::Running {
+  Journal journal;
+  PanelServer server;
+  std::unique_ptr<LocalizerMemory> memory;
+  Localizer* localizer = nullptr;
+  std::optional<Acquisition> acquisition;
+  std::optional<FitWorker> fit;
+  std::optional<Publication> publication;
+  std::vector<std::thread> threads;
+
+  [[nodiscard]] HostError open_journal(const HostSettings& settings, const SessionIdentity& identity,
+                                       JournalContent& recorded);
+  [[nodiscard]] HostError make_localizer(const LocalizerConfig& config, const DesignImage& design);
+};
+
+HostError Host::Running::open_journal(const HostSettings& settings, const SessionIdentity& identity,
+                                      JournalContent& recorded) {
+  std::error_code problem;
+  std::filesystem::create_directories(settings.session_directory, problem);
+  if (problem) {
+    return {Fault::device, fmt::format("{}: the session folder cannot be made ({}); name another one with --session",
+                                       settings.session_directory, problem.message())};
+  }
+  const std::string path = journal_path(settings.session_directory);
+  if (const HostError error = journal.open(path)) return error;
+  if (const HostError error = read_journal(path, recorded)) return error;
+  if (const HostError error = check_identity(path, recorded, identity)) return error;
+  return recorded.exists ? journal.resume(recorded.events.size()) : HostError{};
+}
+
+HostError Host::Running::make_localizer(const LocalizerConfig& config, const DesignImage& design) {
+  memory = std::make_unique<LocalizerMemory>(Localizer::memory_required(config));
+  const Status status = Localizer::create(memory->bytes(), design, config, localizer);
+  if (succeeded(status)) return {};
+  return {Fault::bad_input, fmt::format("the fit cannot start with these settings ({}); check capacity, tolerances, "
+                                        "leading-edge boxes and probe radius",
+                                        status_text(status))};
+}
+
+Host::Host(HostSettings settings, const DesignImage& design, ProbeSource& source,
+           std::function<void(const std::string&)> on_notice)
+    : settings_(std::move(settings)), design_(design), source_(source) {
+  shared_.on_notice = std::move(on_notice);
+}
+
+Host::~Host() {
+  if (!running_) return;
+  request_stop();
+  shared_.panel_closed.store(true);
+  for (std::thread& thread : running_->threads) {
+    if (thread.joinable()) thread.join();
+  }
+}
+
+HostError Host::start() {
+  running_ = std::make_unique<Running>();
+  Running& running = *running_;
+  const SessionIdentity identity{design_.header().crc32,
+                                 config_digest(settings_.localizer, settings_.path_refine_points)};
+  JournalContent recorded;
+  if (const HostError error = running.make_localizer(settings_.localizer, design_)) return error;
+  if (const HostError error = running.open_journal(settings_, identity, recorded)) return error;
+  if (const HostError error = running.server.open(settings_.panel)) return error;
+  if (recorded.exists) {
+    shared_.notice(fmt::format("session resumed: {} events in the journal, {} bytes of an unfinished record cut off",
+                               recorded.events.size(), recorded.torn_bytes));
+  }
+  const AcquisitionSettings acquisition{identity, settings_.end_when_finished, settings_.idle};
+  running.acquisition.emplace(acquisition, std::move(recorded), source_, running.journal, shared_);
+  running.fit.emplace(*running.localizer, settings_.path_refine_points, shared_);
+  running.publication.emplace(settings_.localizer.tolerance, running.server, shared_);
+  running.threads.emplace_back([&running] { running.publication->run(); });
+  running.threads.emplace_back([&running] { running.fit->run(); });
+  running.threads.emplace_back([&running, this] { write_journal(running.journal, shared_); });
+  running.threads.emplace_back([&running] { running.acquisition->run(); });
+  return {};
+}
+
+std::uint16_t Host::panel_port() const { return running_->server.port(); }
+
+bool Host::wait_for_end(std::chrono::milliseconds timeout) {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  while (!shared_.fit_done.load()) {
+    if (std::chrono::steady_clock::now() >= deadline) return false;
+    std::this_thread::sleep_for(kEndPoll);
+  }
+  return true;
+}
+
+void Host::request_stop() { shared_.stop_requested.store(true); }
+
+SessionResult Host::finish() {
+  shared_.panel_closed.store(true);
+  shared_.publication_wakeup.signal();
+  for (std::thread& thread : running_->threads) thread.join();
+  SessionResult result{.end = shared_.end.load(),
+                       .error = shared_.error(),
+                       .report = running_->localizer->fit(),
+                       .points = {},
+                       .verdicts = {}};
+  JournalContent recorded;
+  const HostError unreadable = read_journal(journal_path(settings_.session_directory), recorded);
+  if (unreadable && !result.error) result.error = unreadable;
+  if (result.error) result.end = SessionEnd::failed;
+  for (const StreamEvent& event : recorded.events) {
+    if (event.kind == EventKind::reset) {
+      result.points.clear();
+      result.verdicts.clear();
+    }
+    const Verdict* const last = running_->publication->tally().find(event.point.sequence);
+    if (event.kind != EventKind::point || last == nullptr) continue;
+    Verdict verdict = *last;
+    // A point whose place was given away keeps the last verdict that came out for it.
+    [[maybe_unused]] const Status status = running_->localizer->verdict_of(event.point.sequence, verdict);
+    result.points.push_back(event.point);
+    result.verdicts.push_back(verdict);
+  }
+  return result;
+}
+
+}  // namespace bladefit

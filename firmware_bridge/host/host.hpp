@@ -1,0 +1,77 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/localizer.hpp"
+#include "drivers/probe_source.hpp"
+#include "firmware_bridge/host/host_shared.hpp"
+#include "firmware_bridge/host/panel_server.hpp"
+
+namespace bladefit {
+
+struct HostSettings {
+  LocalizerConfig localizer;
+  std::string session_directory;  ///< made when it is missing; a session in it is resumed
+  PanelServerSettings panel;
+  /// Stored points projected anew when a path ends: bounds how long that makes the next point wait.
+  std::uint32_t path_refine_points = 1024;
+  bool end_when_finished = false;     ///< end when the device says that its program is finished
+  std::chrono::milliseconds idle{0};  ///< end when no new point came for so long; 0 = never
+};
+
+/// What a session came to.
+struct SessionResult {
+  SessionEnd end = SessionEnd::running;
+  HostError error;  ///< set where `end` is failed; the rest then tells of the points before the failure
+  FitReport report;
+  std::vector<ProbePoint> points;  ///< as journalled, rising sequence
+  std::vector<Verdict> verdicts;   ///< final ones; verdicts[i] is that of points[i]
+};
+
+/// The ready host: takes points from a source, keeps them in the journal of a session, judges them and serves a panel,
+/// in four threads joined by rings:
+///   acquisition   waits for the device, acknowledges what is on disk
+///   journal       writes and synchronises the disk
+///   fit           the localizer; no lock, no allocation
+///   publication   tallies verdicts, serves panels
+/// A session that was interrupted at any instant and is started again in the same folder ends with the same bits.
+class Host {
+ public:
+  /// `design` (and the memory under it) and `source` must outlive the host.
+  Host(HostSettings settings, const DesignImage& design, ProbeSource& source,
+       std::function<void(const std::string&)> on_notice);
+  ~Host();
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+
+  /// Opens journal and panel and starts the threads. bad_input: the folder holds another session, or a setting is out
+  /// of range; `device`: folder or port cannot be used. The source is opened later, by the acquisition thread.
+  [[nodiscard]] HostError start();
+
+  /// Port that the panel listens at; after start().
+  [[nodiscard]] std::uint16_t panel_port() const;
+
+  /// Waits up to `timeout`. True when the session has ended and the fit has settled.
+  [[nodiscard]] bool wait_for_end(std::chrono::milliseconds timeout);
+
+  /// Ends the session as if its last point had come. Any thread.
+  void request_stop();
+
+  /// Closes the panel and tells what the session came to. Call once, after wait_for_end() was true.
+  [[nodiscard]] SessionResult finish();
+
+ private:
+  struct Running;
+  HostSettings settings_;
+  const DesignImage& design_;
+  ProbeSource& source_;
+  HostShared shared_;
+  std::unique_ptr<Running> running_;
+};
+
+/// Path of the journal in a session folder.
+[[nodiscard]] std::string journal_path(const std::string& session_directory);
+
+}  // namespace bladefit

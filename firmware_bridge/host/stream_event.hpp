@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdint>
+
+#include "core/probe_point.hpp"
+
+namespace bladefit {
+
+enum class EventKind : std::uint8_t {
+  point = 1,
+  finished = 2,  ///< the device said that its program is finished
+  reset = 3,     ///< the operator asked to forget all points so far
+};
+
+/// One element of the stream that a session consists of. The order of the events, and nothing else, decides about the
+/// result; so it is they that the journal keeps.
+struct StreamEvent {
+  EventKind kind = EventKind::point;
+  ProbePoint point;  ///< of kind point only
+};
+
+}  // namespace bladefit
