@@ -4,7 +4,10 @@
 #include <span>
 
 #include "core/fit/pose.hpp"
+#include "core/fit/pose_solver.hpp"
+#include "core/fit/stored_point.hpp"
 #include "core/geometry/design_image.hpp"
+#include "core/geometry/global_projection.hpp"
 #include "core/inspection/tolerance_map.hpp"
 #include "core/inspection/verdict.hpp"
 #include "core/probe_point.hpp"
@@ -21,6 +24,8 @@ struct LocalizerConfig {
   bool use_approach = true;            ///< approach vectors choose the side of the blade
   EdgePolicy edges = EdgePolicy::skip; ///< whether feet on edges and corners count in the fit
   double noise_floor_mm = 0.005;       ///< least standard deviation assumed of a distance when judging what is determined
+  double determined_mm = 0;            ///< largest standard uncertainty of a determined direction, at the design's half
+                                       ///< diagonal; 0 = a thousandth of the half diagonal
   Pose start;                          ///< where the fit starts
   ToleranceMap tolerance;
 };
@@ -84,6 +89,10 @@ class Localizer {
   /// more_work, or iteration_cap.
   [[nodiscard]] Status refine(std::uint32_t max_points);
 
+  /// No more points will come: from here on refine() uses every direction the points determine at all, however weakly.
+  /// The next push() takes it back. Cost: constant.
+  void conclude();
+
   [[nodiscard]] FitReport fit() const;
 
   /// The present verdict of a point. Returns ok or not_found (unknown sequence, or its place was given away).
@@ -93,9 +102,62 @@ class Localizer {
   void reset();
 
  private:
-  Localizer() = default;
-  struct State;
-  friend struct LocalizerAccess;
+  Localizer(const DesignImage& design, const LocalizerConfig& config);
+
+  enum class Search : std::uint8_t { local, global };
+  struct Measurement {
+    Projection projection;
+    Foot foot;
+    Vec3 r = Vec3::Zero();
+    bool changed = false;  ///< a global search found another local minimum than the one tracked
+  };
+  struct Refinement {
+    bool active = false;
+    Search search = Search::local;
+    std::uint32_t sweeps = 0, changed = 0;
+    double last_value = 0;      ///< sum 1/2 d^2 of the sweep before
+    std::uint32_t last_count = 0;
+    Pose last_pose;
+    Vec6 last_step = Vec6::Zero();
+  };
+
+  [[nodiscard]] Status check(const ProbePoint& point) const;
+  [[nodiscard]] Measurement measure(const StoredPoint& point, Search search) const;
+  [[nodiscard]] StoredPoint admitted(const ProbePoint& point, Measurement& measurement) const;
+  StoredPoint* store(const StoredPoint& point, const Measurement& measurement);
+  void note(StoredPoint& point, const Measurement& measurement);
+  void judge(StoredPoint& point);
+  void count_verdict(const StoredPoint& point, int sign);
+  void include(FitSums& sums, const StoredPoint& point, const Measurement& measurement, const Vec6& x) const;
+  void begin_sweep();
+  void refresh(std::uint32_t budget);
+  double solve();
+  void refresh_next(const Vec6& x, Search search);
+  [[nodiscard]] bool finish_refine_sweep(Status& status);
+  [[nodiscard]] bool retreat();
+  [[nodiscard]] double threshold() const;
+  [[nodiscard]] Verdict verdict_from(const StoredPoint& point) const;
+  void queue_revision(std::uint32_t index);
+
+  Surface surface_;
+  LocalizerConfig config_;
+  MotionFrame frame_;
+  Pose pose_;
+  FitSums current_, filling_, frozen_;
+  Determination determination_;
+  Mat6 covariance_ = Mat6::Identity();  ///< of x, for unit variance
+  double sigma_ = 0;
+  bool concluded_ = false, converged_ = false, redetermine_ = true;
+  Refinement refinement_;
+  double last_step_ = 0;
+  std::uint32_t revision_ = 0, accepted_ = 0, rejected_ = 0, last_sequence_ = 0, last_path_ = 0;
+  std::uint32_t judged_out_[2] = {0, 0};
+  SurfacePlace last_place_;
+  bool has_last_ = false;
+  std::uint32_t stored_ = 0, cursor_ = 0;
+  std::uint32_t queue_head_ = 0, queue_size_ = 0;
+  StoredPoint* points_ = nullptr;   ///< capacity of them
+  std::uint32_t* queue_ = nullptr;  ///< ring of indices with a changed verdict, each at most once
 };
 
 }  // namespace bladefit

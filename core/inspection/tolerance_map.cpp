@@ -1,6 +1,7 @@
 #include "core/inspection/tolerance_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bladefit {
 namespace {
@@ -27,7 +28,8 @@ double tolerance_at(const ToleranceMap& map, std::uint32_t patch, double u, doub
     if (distance == 0.0) return map.leading_edge_mm;
     if (distance < map.transition) share = std::min(share, distance / map.transition);
   }
-  return share == 1.0 ? map.rest_mm : map.leading_edge_mm + share * (map.rest_mm - map.leading_edge_mm);
+  if (share == 1.0 || !std::isfinite(map.rest_mm) || !std::isfinite(map.leading_edge_mm)) return map.rest_mm;
+  return map.leading_edge_mm + share * (map.rest_mm - map.leading_edge_mm);
 }
 
 }  // namespace bladefit

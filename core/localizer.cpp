@@ -1,0 +1,264 @@
+#include "core/localizer.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+namespace bladefit {
+namespace {
+
+constexpr std::size_t kAlignment = 64;
+/// A pose does not move further than this in one push [half diagonals]: what lies beyond is no small motion.
+constexpr double kLongestStep = 0.05;
+/// Start poses are assumed right to within this [half diagonals] when a direction is not determined yet.
+constexpr double kStartUncertainty = 0.01;
+/// A verdict is pending while what is not determined may change the distance by more than this share of the tolerance.
+constexpr double kPendingShare = 0.1;
+/// Fewer fitted points than this hide their own errors: every verdict is pending.
+constexpr std::uint32_t kLeastFitted = 12;
+/// Directions below this share of the largest eigenvalue are rounding.
+constexpr double kNumericalRank = 1e-13;
+
+constexpr std::size_t rounded_up(std::size_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
+
+Vec3 to_vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+
+bool finite(const std::array<double, 3>& a) { return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]); }
+
+bool tolerances_valid(const ToleranceMap& map, std::size_t patches) {
+  const bool numbers = map.leading_edge_mm > 0.0 && map.rest_mm > 0.0 && std::isfinite(map.transition) && map.transition >= 0.0;
+  if (!numbers || map.box_count > ToleranceMap::kMaxBoxes) return false;
+  return std::all_of(map.boxes.begin(), map.boxes.begin() + map.box_count, [patches](const ParameterBox& b) {
+    return b.patch < patches && b.u_min <= b.u_max && b.v_min <= b.v_max;
+  });
+}
+
+bool pose_valid(const Pose& pose) {
+  const Mat3 product = pose.rotation.transpose() * pose.rotation - Mat3::Identity();
+  return product.cwiseAbs().maxCoeff() < 1e-9 && pose.rotation.determinant() > 0.0 && pose.translation.allFinite();
+}
+
+bool config_valid(const LocalizerConfig& c, std::size_t patches) {
+  const bool sizes = c.capacity >= 6 && c.refresh_per_push >= 2 && c.refresh_per_push <= 64;
+  const bool lengths = std::isfinite(c.probe_radius_mm) && c.probe_radius_mm >= 0.0 && c.noise_floor_mm > 0.0 &&
+                       std::isfinite(c.noise_floor_mm) && c.determined_mm >= 0.0;
+  return sizes && lengths && pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
+}
+
+}  // namespace
+
+std::size_t Localizer::memory_required(const LocalizerConfig& config) {
+  return rounded_up(sizeof(Localizer)) + rounded_up(sizeof(StoredPoint) * config.capacity) +
+         rounded_up(sizeof(std::uint32_t) * config.capacity);
+}
+
+Localizer::Localizer(const DesignImage& design, const LocalizerConfig& config) : surface_(design), config_(config) {
+  const ImageHeader& h = design.header();
+  for (int k = 0; k < 3; ++k) frame_.pivot[k] = 0.5 * (h.box_min[k] + h.box_max[k]);
+  frame_.length = surface_.half_diagonal();
+  if (config_.determined_mm == 0.0) config_.determined_mm = 1e-3 * frame_.length;
+}
+
+Status Localizer::create(std::span<std::byte> memory, const DesignImage& design, const LocalizerConfig& config,
+                         Localizer*& localizer) {
+  if (memory.data() == nullptr || design.patches().empty()) return Status::null_argument;
+  if (reinterpret_cast<std::uintptr_t>(memory.data()) % kAlignment != 0) return Status::misaligned;
+  if (!config_valid(config, design.patches().size())) return Status::out_of_range;
+  if (memory.size() < memory_required(config)) return Status::not_enough_memory;
+
+  std::byte* place = memory.data();
+  auto* made = new (place) Localizer(design, config);
+  place += rounded_up(sizeof(Localizer));
+  made->points_ = reinterpret_cast<StoredPoint*>(place);
+  for (std::uint32_t k = 0; k < config.capacity; ++k) new (&made->points_[k]) StoredPoint();
+  place += rounded_up(sizeof(StoredPoint) * config.capacity);
+  made->queue_ = reinterpret_cast<std::uint32_t*>(place);
+  for (std::uint32_t k = 0; k < config.capacity; ++k) new (&made->queue_[k]) std::uint32_t(0);
+  made->reset();
+  localizer = made;
+  return Status::ok;
+}
+
+void Localizer::reset() {
+  pose_ = config_.start;
+  current_ = filling_ = frozen_ = FitSums();
+  frozen_.model.reference = pose_;
+  determination_ = Determination();
+  determination_.free_directions = Mat6::Identity();
+  refinement_ = Refinement();
+  sigma_ = config_.noise_floor_mm;
+  concluded_ = converged_ = has_last_ = false;
+  revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
+  judged_out_[0] = judged_out_[1] = 0;
+  stored_ = cursor_ = queue_head_ = queue_size_ = 0;
+  last_step_ = 0;
+  begin_sweep();
+  current_ = filling_;
+  covariance_ = unit_covariance(current_.model, determination_, 1.0);
+}
+
+Status Localizer::check(const ProbePoint& point) const {
+  if (!finite(point.position) || !finite(point.approach)) return Status::not_finite;
+  const double length = to_vec3(point.approach).norm();
+  if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > 1e-3)) return Status::out_of_range;
+  return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
+}
+
+Localizer::Measurement Localizer::measure(const StoredPoint& point, Search search) const {
+  Measurement m;
+  m.r = apply(pose_, point.position);
+  const ProjectionQuery query{m.r, pose_.rotation * point.approach};
+  m.projection = project_local(surface_, m.r, {point.span, point.foot.u, point.foot.v});
+  const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
+                        !faces_probe(surface_, m.projection, query.approach);
+  if (doubtful || search == Search::global) {
+    const GlobalProjection global = project_global(surface_, query, &m.projection);
+    const Vec3 jump = global.nearest.at.s - m.projection.at.s;
+    m.changed = !m.projection.converged || jump.norm() > 1e-8 * frame_.length;
+    m.projection = global.nearest;
+  }
+  m.foot = foot_of(surface_, m.projection, config_.probe_radius_mm);
+  return m;
+}
+
+StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measurement) const {
+  StoredPoint stored;
+  stored.position = to_vec3(point.position);
+  if (config_.use_approach) stored.approach = to_vec3(point.approach);
+  stored.sequence = point.sequence;
+  stored.span = last_place_.span;
+  stored.foot.u = last_place_.u;
+  stored.foot.v = last_place_.v;
+  measurement = measure(stored, Search::global);
+  return stored;
+}
+
+void Localizer::include(FitSums& sums, const StoredPoint& point, const Measurement& m, const Vec6& x) const {
+  if (m.foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip) return;
+  sums.model.add(distance_row(m.projection, m.foot, m.r, x, frame_), x);
+  const Region region = region_at(config_.tolerance, m.foot.patch, m.foot.u, m.foot.v);
+  sums.regions[static_cast<std::size_t>(region)].add(m.foot.distance, point.sequence);
+}
+
+void Localizer::note(StoredPoint& point, const Measurement& m) {
+  point.foot = m.foot;
+  point.span = m.projection.place.span;
+  point.revision = revision_;
+}
+
+StoredPoint* Localizer::store(const StoredPoint& point, const Measurement& m) {
+  const Vec6 x = motion_between(current_.model.reference, pose_, frame_);
+  include(current_, point, m, x);
+  last_sequence_ = point.sequence;
+  last_place_ = m.projection.place;
+  ++accepted_;
+  if (stored_ < config_.capacity) {
+    points_[stored_] = point;
+    note(points_[stored_], m);
+    return &points_[stored_++];
+  }
+  include(filling_, point, m, motion_between(filling_.model.reference, pose_, frame_));
+  include(frozen_, point, m, motion_between(frozen_.model.reference, pose_, frame_));
+  return nullptr;
+}
+
+Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
+  if (const Status status = check(point); status != Status::ok) return status;
+  refinement_.active = concluded_ = converged_ = false;
+  Measurement measurement;
+  StoredPoint passing = admitted(point, measurement);
+  StoredPoint* place = store(passing, measurement);
+  refresh(config_.refresh_per_push);
+  solve();
+
+  StoredPoint& own = place != nullptr ? *place : passing;
+  if (place == nullptr) note(passing, measurement);
+  note(own, measure(own, Search::local));
+  judge(own);
+  own.told_state = own.state;
+  own.told_action = own.action;
+  verdict = verdict_from(own);
+  if (place == nullptr) return Status::memory_full;
+  return determination_.rank == 6 ? Status::ok : Status::underdetermined;
+}
+
+Status Localizer::stage(const ProbePoint& point) {
+  if (const Status status = check(point); status != Status::ok) return status;
+  if (stored_ == config_.capacity) return Status::out_of_range;
+  refinement_.active = converged_ = false;
+  redetermine_ = true;
+  Measurement measurement;
+  const StoredPoint passing = admitted(point, measurement);
+  StoredPoint& own = *store(passing, measurement);
+  judge(own);
+  own.told_state = own.state;
+  own.told_action = own.action;
+  return Status::ok;
+}
+
+void Localizer::conclude() {
+  concluded_ = true;
+  redetermine_ = true;
+}
+
+double Localizer::threshold() const {
+  const double numerical = kNumericalRank * current_.model.gauss.trace();
+  if (concluded_) return numerical;
+  const double ratio = sigma_ / config_.determined_mm;
+  return std::max(numerical, ratio * ratio);
+}
+
+double Localizer::solve() {
+  const QuadraticModel& model = current_.model;
+  const Vec6 x = motion_between(model.reference, pose_, frame_);
+  if (redetermine_ || determination_.rank < 6) determination_ = determine(model, threshold());
+  redetermine_ = false;
+  Vec6 target = minimum_of(model, determination_, x);
+  const double length = (target - x).norm();
+  if (length > kLongestStep * frame_.length) target = x + (kLongestStep * frame_.length / length) * (target - x);
+  pose_ = moved(model.reference, target, frame_);
+  ++revision_;
+  const auto freedom = static_cast<double>(model.count) - static_cast<double>(determination_.rank);
+  const double variance = freedom > 0.0 ? 2.0 * model.value_at(target) / freedom : 0.0;
+  sigma_ = std::max(config_.noise_floor_mm, std::sqrt(variance));
+  const double start = kStartUncertainty * frame_.length;
+  covariance_ = unit_covariance(model, determination_, sigma_ * sigma_ / (start * start));
+  last_step_ = (target - x).norm();
+  return last_step_;
+}
+
+void Localizer::count_verdict(const StoredPoint& point, int sign) {
+  const auto one = static_cast<std::uint32_t>(sign);
+  if (point.state == PointState::out) judged_out_[static_cast<std::size_t>(point.region)] += one;
+  if (point.state == PointState::rejected) rejected_ += one;
+}
+
+void Localizer::judge(StoredPoint& point) {
+  if (point.tolerance != 0.0) count_verdict(point, -1);
+  const Foot& foot = point.foot;
+  point.region = region_at(config_.tolerance, foot.patch, foot.u, foot.v);
+  point.tolerance = tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
+  Vec6 gradient;
+  gradient.head<3>() = (apply(pose_, point.position) - frame_.pivot).cross(foot.normal) / frame_.length;
+  gradient.tail<3>() = foot.normal;
+  point.uncertainty = sigma_ * std::sqrt(gradient.dot(covariance_ * gradient));
+
+  const double free = (determination_.free_directions.transpose() * gradient).norm() * kStartUncertainty * frame_.length;
+  const double share = kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : config_.determined_mm);
+  point.action = Action::none;
+  if (foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip) {
+    point.state = PointState::rejected;
+  } else if (free > share || (current_.model.count < kLeastFitted && !concluded_)) {
+    point.state = PointState::pending;
+  } else if (std::abs(foot.distance) > point.tolerance) {
+    point.state = PointState::out;
+    point.action = foot.distance > 0.0 ? Action::cut : Action::weld;
+  } else {
+    point.state = PointState::in;
+  }
+  count_verdict(point, +1);
+}
+
+}  // namespace bladefit

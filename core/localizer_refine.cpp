@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/localizer.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::uint32_t kMaxSweeps = 100;
+/// Steps [half diagonals]: below the first the feet are checked by global search, below the second the fit has converged.
+constexpr double kCheckBelow = 1e-6;
+constexpr double kConvergedBelow = 1e-12;
+
+}  // namespace
+
+void Localizer::begin_sweep() {
+  filling_ = frozen_;
+  filling_.model = shifted(frozen_.model, pose_, frame_);
+  cursor_ = 0;
+}
+
+void Localizer::refresh_next(const Vec6& x, Search search) {
+  StoredPoint& point = points_[cursor_];
+  const Measurement m = measure(point, search);
+  if (m.changed) ++refinement_.changed;
+  note(point, m);
+  judge(point);
+  if (point.state != point.told_state || point.action != point.told_action) queue_revision(cursor_);
+  include(filling_, point, m, x);
+  ++cursor_;
+}
+
+void Localizer::refresh(std::uint32_t budget) {
+  const Vec6 x = motion_between(filling_.model.reference, pose_, frame_);
+  for (std::uint32_t k = 0; k < budget && cursor_ < stored_; ++k) {
+    // One point a push is projected from nothing: a tracked foot is not trusted for ever.
+    refresh_next(x, k == 0 ? Search::global : Search::local);
+  }
+  if (cursor_ < stored_) return;
+  current_ = filling_;
+  redetermine_ = true;
+  begin_sweep();
+}
+
+/// The last step made the sum of squares larger: go back and take a quarter of it. False when it did not.
+bool Localizer::retreat() {
+  Refinement& r = refinement_;
+  const QuadraticModel& model = current_.model;
+  const bool comparable = r.sweeps > 1 && model.count == r.last_count && r.last_step.norm() > kCheckBelow * frame_.length;
+  if (!comparable || model.half_square <= r.last_value * (1.0 + 1e-9)) return false;
+  r.last_step *= 0.25;
+  pose_ = moved(r.last_pose, r.last_step, frame_);
+  ++revision_;
+  return true;
+}
+
+/// Closes a sweep of refine(): moves the pose and decides what comes next. True when the refinement is over.
+bool Localizer::finish_refine_sweep(Status& status) {
+  Refinement& r = refinement_;
+  current_ = filling_;
+  redetermine_ = true;
+  ++r.sweeps;
+  const bool checked = r.search == Search::global && r.changed == 0;
+  if (!retreat()) {
+    r.last_value = current_.model.half_square;
+    r.last_count = current_.model.count;
+    r.last_pose = pose_;
+    const double step = solve();
+    r.last_step = motion_between(r.last_pose, pose_, frame_);
+    if (checked && step <= kConvergedBelow * frame_.length) {
+      converged_ = determination_.rank == 6;
+      status = converged_ ? Status::ok : Status::underdetermined;
+    }
+    r.search = step <= kCheckBelow * frame_.length ? Search::global : Search::local;
+  }
+  r.changed = 0;
+  if (status == Status::more_work && r.sweeps >= kMaxSweeps) status = Status::iteration_cap;
+  begin_sweep();
+  return status != Status::more_work;
+}
+
+Status Localizer::refine(std::uint32_t max_points) {
+  if (stored_ == 0) return Status::underdetermined;
+  if (converged_) return Status::ok;
+  if (!refinement_.active) {
+    refinement_ = Refinement();
+    refinement_.active = true;
+    redetermine_ = true;
+    solve();
+    begin_sweep();
+  }
+  Status status = Status::more_work;
+  for (std::uint32_t k = 0; k < max_points; ++k) {
+    refresh_next(Vec6::Zero(), refinement_.search);
+    if (cursor_ < stored_) continue;
+    if (!finish_refine_sweep(status)) continue;
+    refinement_.active = false;
+    for (std::uint32_t i = 0; i < stored_; ++i) {
+      judge(points_[i]);
+      if (points_[i].state != points_[i].told_state || points_[i].action != points_[i].told_action) queue_revision(i);
+    }
+    return status;
+  }
+  return status;
+}
+
+}  // namespace bladefit

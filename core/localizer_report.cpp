@@ -1,0 +1,94 @@
+#include <cmath>
+
+#include "core/localizer.hpp"
+
+namespace bladefit {
+namespace {
+
+RegionReport region_report(const RegionSums& sums, std::uint32_t judged_out) {
+  RegionReport report;
+  report.count = sums.count;
+  report.judged_out = judged_out;
+  report.rms_mm = sums.count > 0 ? std::sqrt(sums.square / sums.count) : 0.0;
+  report.worst_mm = sums.worst;
+  report.worst_sequence = sums.worst_sequence;
+  return report;
+}
+
+}  // namespace
+
+Verdict Localizer::verdict_from(const StoredPoint& point) const {
+  Verdict verdict;
+  verdict.sequence = point.sequence;
+  verdict.foot = point.foot;
+  verdict.region = point.region;
+  verdict.tolerance_mm = point.tolerance;
+  verdict.uncertainty_mm = point.uncertainty;
+  verdict.state = point.state;
+  verdict.action = point.action;
+  verdict.revision = point.revision;
+  return verdict;
+}
+
+void Localizer::queue_revision(std::uint32_t index) {
+  if (points_[index].queued) return;
+  points_[index].queued = true;
+  queue_[(queue_head_ + queue_size_) % config_.capacity] = index;
+  ++queue_size_;
+}
+
+bool Localizer::next_revision(Verdict& verdict) {
+  while (queue_size_ > 0) {
+    StoredPoint& point = points_[queue_[queue_head_]];
+    queue_head_ = (queue_head_ + 1) % config_.capacity;
+    --queue_size_;
+    point.queued = false;
+    if (point.state == point.told_state && point.action == point.told_action) continue;  // changed back meanwhile
+    point.told_state = point.state;
+    point.told_action = point.action;
+    verdict = verdict_from(point);
+    return true;
+  }
+  return false;
+}
+
+Status Localizer::verdict_of(std::uint32_t sequence, Verdict& verdict) const {
+  std::uint32_t low = 0, high = stored_;
+  while (low < high) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    if (points_[middle].sequence < sequence) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  if (low == stored_ || points_[low].sequence != sequence) return Status::not_found;
+  verdict = verdict_from(points_[low]);
+  return Status::ok;
+}
+
+FitReport Localizer::fit() const {
+  const QuadraticModel& model = current_.model;
+  FitReport report;
+  report.pose = pose_;
+  report.determined = determination_.rank;
+  report.points = accepted_;
+  report.fitted = model.count;
+  report.rejected = rejected_;
+  report.smallest_eigenvalue = determination_.smallest;
+  report.gradient = last_step_;
+  report.revision = revision_;
+  report.memory_full = accepted_ > stored_;
+  const double square = 2.0 * model.value_at(motion_between(model.reference, pose_, frame_));
+  if (model.count > 0) report.rms_mm = std::sqrt(square / model.count);
+  if (model.count > 6) report.sigma_mm = std::sqrt(square / (model.count - 6));
+  if (determination_.rank == 6) {
+    report.covariance = pose_covariance(report.sigma_mm * report.sigma_mm * covariance_, pose_, frame_);
+    report.status = converged_ ? FitStatus::converged : FitStatus::tracking;
+  }
+  report.rest = region_report(current_.regions[0], judged_out_[0]);
+  report.leading_edge = region_report(current_.regions[1], judged_out_[1]);
+  return report;
+}
+
+}  // namespace bladefit
