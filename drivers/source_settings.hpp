@@ -54,7 +54,8 @@ struct CmmMap {
   NumberField version{true, cmm_map_v1::kVersionRegister, NumberType::uint16, 1};
   std::uint32_t expected_version = cmm_map_v1::kVersion;
   NumberField status{true, cmm_map_v1::kStatusRegister, NumberType::uint16, 1};
-  std::uint16_t fault_mask = cmm_map_v1::kStatusFault;        ///< status bits that mean so; 0 = the device has none
+  std::uint16_t probing_mask = cmm_map_v1::kStatusProbing;  ///< status bits that mean so; 0 = the device has none
+  std::uint16_t fault_mask = cmm_map_v1::kStatusFault;
   std::uint16_t overflow_mask = cmm_map_v1::kStatusOverflow;  ///< points were lost in the device
   std::uint16_t finished_mask = cmm_map_v1::kStatusFinished;  ///< the program is finished
   NumberField newest{true, cmm_map_v1::kNewestRegister, NumberType::uint32, 1};

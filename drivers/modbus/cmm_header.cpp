@@ -1,0 +1,150 @@
+#include "drivers/modbus/cmm_header.hpp"
+
+#include <fmt/format.h>
+#include <modbus.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "drivers/modbus/number_codec.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::uint32_t kRegisters = 65536;
+constexpr double kTestConstantTolerance = 1e-6;  ///< relative; a float32 has it
+
+std::array<const NumberField*, 7> header_fields(const CmmMap& map) {
+  return {&map.version,          &map.status, &map.newest,       &map.capacity,
+          &map.record_size_told, &map.run_id, &map.test_constant};
+}
+
+struct NamedField {
+  const char* name;
+  const NumberField* field;
+};
+
+std::array<NamedField, 10> record_fields(const CmmMap& map) {
+  return {{{"sequence", &map.sequence},
+           {"x", &map.position[0]},
+           {"y", &map.position[1]},
+           {"z", &map.position[2]},
+           {"i", &map.direction[0]},
+           {"j", &map.direction[1]},
+           {"k", &map.direction[2]},
+           {"path", &map.path},
+           {"record_status", &map.record_status},
+           {"crc", &map.crc}}};
+}
+
+WordOrder other(WordOrder order) {
+  return order == WordOrder::high_first ? WordOrder::low_first : WordOrder::high_first;
+}
+
+bool near(double value, double expected) {
+  return std::abs(value - expected) <= kTestConstantTolerance * std::abs(expected);
+}
+
+}  // namespace
+
+RegisterBlock header_block(const CmmMap& map) {
+  std::uint32_t first = kRegisters;
+  std::uint32_t end = 0;
+  for (const NumberField* field : header_fields(map)) {
+    if (!field->present) continue;
+    first = std::min<std::uint32_t>(first, field->address);
+    end = std::max<std::uint32_t>(end, field->address + register_count(field->type));
+  }
+  return {static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(end - first)};
+}
+
+CmmHeader decode_header(std::span<const std::uint16_t> registers, const CmmMap& map) {
+  const std::uint16_t first = header_block(map).first;
+  const auto whole = [&](const NumberField& field, std::uint32_t otherwise) {
+    return field.present ? decode_whole(registers, first, field, map.word_order) : otherwise;
+  };
+  CmmHeader header;
+  header.version = whole(map.version, map.expected_version);
+  header.status = static_cast<std::uint16_t>(whole(map.status, 0));
+  header.newest = whole(map.newest, 0);
+  header.capacity = map.ring_capacity != 0 ? map.ring_capacity : whole(map.capacity, 0);
+  header.record_size = whole(map.record_size_told, map.record_size);
+  header.run_id = whole(map.run_id, 0);
+  if (map.test_constant.present) {
+    const auto words = registers.subspan(static_cast<std::size_t>(map.test_constant.address - first),
+                                         register_count(map.test_constant.type));
+    header.test_constant_provided =
+        std::any_of(words.begin(), words.end(), [](std::uint16_t word) { return word != 0; });
+    header.test_constant = decode_number(words, map.test_constant.type, map.word_order);
+    header.test_constant_swapped = decode_number(words, map.test_constant.type, other(map.word_order));
+  }
+  return header;
+}
+
+std::string check_header(const CmmHeader& header, const CmmMap& map) {
+  if (header.version != map.expected_version) {
+    return fmt::format("it has register map version {}, not {}; give a device file that describes its map",
+                       header.version, map.expected_version);
+  }
+  if (header.test_constant_provided && !near(header.test_constant, map.expected_test_constant)) {
+    if (near(header.test_constant_swapped, map.expected_test_constant)) {
+      return fmt::format("its registers come in the other word order; set word_order = \"{}\" in the device file",
+                         map.word_order == WordOrder::high_first ? "low_first" : "high_first");
+    }
+    return fmt::format("its test constant reads {}, not {}; correct word_order or test_constant in the device file",
+                       header.test_constant, map.expected_test_constant);
+  }
+  if (header.record_size != map.record_size) {
+    return fmt::format("its records have {} registers, not {}; correct record_size in the device file",
+                       header.record_size, map.record_size);
+  }
+  if (header.capacity == 0) return "its ring has no records; set ring_capacity in the device file";
+  const std::uint64_t end = map.records + std::uint64_t{header.capacity} * map.record_size;
+  if (end <= kRegisters) return {};
+  return fmt::format(
+      "its ring of {} records ends at register {}, beyond 65535; correct ring_capacity in the device file",
+      header.capacity, end - 1);
+}
+
+std::string check_map(const CmmMap& map) {
+  if (map.record_size == 0 || map.record_size > MODBUS_MAX_READ_REGISTERS) {
+    return fmt::format("record_size is {} registers; one read takes 1..{}", map.record_size, MODBUS_MAX_READ_REGISTERS);
+  }
+  std::uint32_t first = kRegisters;
+  std::uint32_t end = 0;
+  for (const NumberField* field : header_fields(map)) {
+    if (!field->present) continue;
+    first = std::min<std::uint32_t>(first, field->address);
+    end = std::max<std::uint32_t>(end, field->address + register_count(field->type));
+  }
+  if (end > kRegisters) return "a header field ends beyond register 65535; correct its address";
+  if (end - std::min(first, end) > MODBUS_MAX_READ_REGISTERS) {
+    return fmt::format("the header fields span {} registers; one read takes at most {}", end - first,
+                       MODBUS_MAX_READ_REGISTERS);
+  }
+  for (const NamedField& named : record_fields(map)) {
+    if (!named.field->present) continue;
+    if (!std::isfinite(named.field->scale) || named.field->scale == 0) {
+      return fmt::format("the scale of {} is {}; give a number other than 0", named.name, named.field->scale);
+    }
+    const std::uint32_t field_end = named.field->address + std::uint32_t{register_count(named.field->type)};
+    if (field_end > map.record_size) {
+      return fmt::format("{} ends at offset {}, beyond the {} registers of a record; correct its offset or record_size",
+                         named.name, field_end - 1, map.record_size);
+    }
+  }
+  if (!map.newest.present) return "newest is missing; without it new records cannot be seen";
+  if (!map.sequence.present) return "sequence is missing; without it a late reply cannot be told from a record";
+  for (const NumberField& axis : map.position) {
+    if (!axis.present) return "x, y or z is missing; a point needs all three";
+  }
+  const bool directed = map.direction[0].present;
+  if (map.direction[1].present != directed || map.direction[2].present != directed) {
+    return "i, j and k must be all there or all absent";
+  }
+  if (!map.capacity.present && map.ring_capacity == 0) return "ring_capacity is missing; the device does not tell it";
+  return {};
+}
+
+}  // namespace bladefit

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "drivers/source_settings.hpp"
+
+namespace bladefit {
+
+/// What the header registers of a CMM say. Fields that the device lacks have the value that a good device would show.
+struct CmmHeader {
+  std::uint32_t version = 0;
+  std::uint16_t status = 0;
+  std::uint32_t newest = 0;       ///< sequence of the newest record; 0 = none yet
+  std::uint32_t capacity = 0;     ///< [records]
+  std::uint32_t record_size = 0;  ///< [registers]
+  std::uint32_t run_id = 0;       ///< 0 = unknown
+  bool test_constant_provided = false;
+  double test_constant = 0;
+  double test_constant_swapped = 0;  ///< as the other word order would have it
+
+  /// True where both describe the same ring of the same run.
+  [[nodiscard]] bool same_identity(const CmmHeader& other) const {
+    return version == other.version && capacity == other.capacity && record_size == other.record_size &&
+           run_id == other.run_id;
+  }
+};
+
+/// The registers that hold every present header field.
+struct RegisterBlock {
+  std::uint16_t first = 0;
+  std::uint16_t count = 0;
+};
+
+[[nodiscard]] RegisterBlock header_block(const CmmMap& map);
+
+/// Decodes the registers of header_block().
+[[nodiscard]] CmmHeader decode_header(std::span<const std::uint16_t> registers, const CmmMap& map);
+
+/// Why the device cannot be read with this map: another version, word order or record size, an impossible ring.
+/// One phrase with the mend; empty = it can.
+[[nodiscard]] std::string check_header(const CmmHeader& header, const CmmMap& map);
+
+/// Why a map contradicts itself (too many registers in the header or a record, fields that leave the record, a scale
+/// that is 0 or not finite). One phrase with the mend; empty = it does not.
+[[nodiscard]] std::string check_map(const CmmMap& map);
+
+}  // namespace bladefit

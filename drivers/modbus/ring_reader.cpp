@@ -1,0 +1,125 @@
+#include "drivers/modbus/ring_reader.hpp"
+
+#include <fmt/format.h>
+#include <modbus.h>
+
+#include <algorithm>
+
+#include "drivers/modbus/cmm_record.hpp"
+#include "drivers/source_fault.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr int kHeadersForLoss = 2;
+constexpr int kHeadersForFinish = 3;
+
+}  // namespace
+
+RingReader::RingReader(const ModbusSettings& settings, SourceStatus& status) : settings_(settings), status_(status) {}
+
+void RingReader::restart(std::uint32_t after) {
+  points_.clear();
+  current_.reset();
+  previous_.reset();
+  next_ = after + 1;
+  tries_ = losses_seen_ = overflows_seen_ = finishes_seen_ = 0;
+  fault_told_ = stopped_ = false;
+}
+
+void RingReader::observe(const CmmHeader& header) {
+  const bool adopted = adopt_identity(header);
+  previous_ = header;
+  if (!adopted || stopped_) return;
+  current_ = header;
+  const bool fault = (header.status & settings_.map.fault_mask) != 0;
+  if (fault && !fault_told_) note_fault(status_, "the device reports a fault; see its own screen");
+  fault_told_ = fault;
+  note_losses(header);
+  note_finish(header);
+}
+
+bool RingReader::adopt_identity(const CmmHeader& header) {
+  if (current_ && current_->same_identity(header)) return true;
+  if (current_ && !(previous_ && previous_->same_identity(header))) return false;
+  const bool began = next_ > 1 && current_;
+  if (began && header.run_id != current_->run_id) {
+    stopped_ = true;
+    status_.finished = false;
+    note_fault(status_,
+               fmt::format("the device has begun another run ({} instead of {}) and numbers its records from 1 "
+                           "again; end this session and start a new one",
+                           header.run_id, current_->run_id));
+  }
+  status_.run_id = header.run_id;
+  return true;
+}
+
+void RingReader::note_losses(const CmmHeader& header) {
+  overflows_seen_ = (header.status & settings_.map.overflow_mask) != 0 ? overflows_seen_ + 1 : 0;
+  if (overflows_seen_ == kHeadersForLoss && !status_.gap) {
+    status_.gap = true;
+    note_fault(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
+  }
+  const bool lost = header.newest > header.capacity && header.newest - header.capacity + 1 > next_;
+  losses_seen_ = lost ? losses_seen_ + 1 : 0;
+  if (losses_seen_ < kHeadersForLoss) return;
+  losses_seen_ = 0;
+  skip_to(header.newest - header.capacity + 1, "overwritten in the device before they were read");
+}
+
+void RingReader::note_finish(const CmmHeader& header) {
+  const bool finished = (header.status & settings_.map.finished_mask) != 0 && header.newest == next_ - 1;
+  finishes_seen_ = finished ? std::min(finishes_seen_ + 1, kHeadersForFinish) : 0;
+  status_.finished = finishes_seen_ == kHeadersForFinish && points_.empty();
+}
+
+RecordBatch RingReader::next_batch() const {
+  if (!current_ || stopped_ || losses_seen_ > 0 || current_->newest < next_) return {};
+  const std::uint32_t slot = (next_ - 1) % current_->capacity;
+  const auto most = static_cast<std::uint32_t>(MODBUS_MAX_READ_REGISTERS / settings_.map.record_size);
+  const std::uint32_t count = std::min(
+      {static_cast<std::uint32_t>(settings_.batch), most, current_->newest - next_ + 1, current_->capacity - slot});
+  return {next_, static_cast<std::uint16_t>(count),
+          static_cast<std::uint16_t>(settings_.map.records + slot * settings_.map.record_size)};
+}
+
+bool RingReader::accept(const RecordBatch& batch, std::span<const std::uint16_t> registers, std::int64_t time_us) {
+  for (std::uint16_t index = 0; index < batch.count; ++index) {
+    const std::size_t size = settings_.map.record_size;
+    ProbePoint point;
+    const std::string fault = decode_record(registers.subspan(index * size, size), settings_.map, next_, point);
+    if (!fault.empty()) {
+      damaged(fault);
+      return false;
+    }
+    point.time_us = time_us;
+    points_.push(point);
+    ++status_.records;
+    ++next_;
+    tries_ = 0;
+    status_.finished = false;
+  }
+  note_good(status_);
+  return true;
+}
+
+/// The first bad look is not counted: the device may just have been writing the record.
+void RingReader::damaged(const std::string& fault) {
+  ++tries_;
+  ++status_.resends;
+  if (tries_ < 2) return;
+  ++status_.damaged;
+  note_fault(status_, fault);
+  if (tries_ < settings_.record_tries) return;
+  skip_to(next_ + 1, fmt::format("damaged in {} looks ({})", tries_, fault));
+}
+
+void RingReader::skip_to(std::uint32_t sequence, const std::string& why) {
+  status_.gap = true;
+  note_fault(status_, fmt::format("records {}..{} are lost: {}; probe these points again", next_, sequence - 1, why));
+  next_ = sequence;
+  tries_ = 0;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "drivers/probe_source.hpp"
+#include "drivers/source_settings.hpp"
+
+namespace bladefit {
+
+/// Points of a CSV file, as fast as they are asked for. The run id is a check sum of the points, so that a session that
+/// is resumed on another file is noticed.
+class ReplaySource final : public ProbeSource {
+ public:
+  explicit ReplaySource(ReplaySettings settings) : settings_(std::move(settings)) {}
+
+  /// Error: a file that read_points_csv() refuses, or one with fewer than `after` points.
+  [[nodiscard]] SourceError open(std::uint32_t after) override;
+  [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
+  void acknowledge(std::uint32_t) override {}
+  void close() override {}
+  [[nodiscard]] const SourceStatus& status() const override { return status_; }
+
+ private:
+  ReplaySettings settings_;
+  std::vector<ProbePoint> points_;
+  std::size_t next_ = 0;
+  SourceStatus status_;
+};
+
+}  // namespace bladefit
