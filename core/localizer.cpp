@@ -44,7 +44,8 @@ bool config_valid(const LocalizerConfig& c, std::size_t patches) {
   const bool sizes = c.capacity >= 6 && c.refresh_per_push >= 2 && c.refresh_per_push <= 64;
   const bool lengths = std::isfinite(c.probe_radius_mm) && c.probe_radius_mm >= 0.0 && c.noise_floor_mm > 0.0 &&
                        std::isfinite(c.noise_floor_mm) && c.determined_mm >= 0.0;
-  return sizes && lengths && pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
+  const bool window = c.window_low >= 0.0 && c.window_low < c.window_high && c.window_high <= 1.0;
+  return sizes && lengths && window && pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
 }
 
 }  // namespace
@@ -106,10 +107,10 @@ Status Localizer::check(const ProbePoint& point) const {
   return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
 }
 
-Localizer::Measurement Localizer::measure(const StoredPoint& point, Search search) const {
+Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& pose, Search search) const {
   Measurement m;
-  m.r = apply(pose_, point.position);
-  const ProjectionQuery query{m.r, pose_.rotation * point.approach};
+  m.r = apply(pose, point.position);
+  const ProjectionQuery query{m.r, pose.rotation * point.approach};
   m.projection = project_local(surface_, m.r, {point.span, point.foot.u, point.foot.v});
   const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
                         !faces_probe(surface_, m.projection, query.approach);
@@ -131,12 +132,24 @@ StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measuremen
   stored.span = last_place_.span;
   stored.foot.u = last_place_.u;
   stored.foot.v = last_place_.v;
-  measurement = measure(stored, Search::global);
+  stored.outside_window = outside_window(stored);
+  measurement = measure(stored, pose_, Search::global);
   return stored;
 }
 
+bool Localizer::outside_window(const StoredPoint& point) const {
+  if (config_.window_low <= 0.0 && config_.window_high >= 1.0) return false;
+  const Foot foot = measure(point, config_.start, Search::global).foot;
+  const auto outside = [this](double t) { return t < config_.window_low || t > config_.window_high; };
+  return outside(foot.u) || outside(foot.v);
+}
+
+bool Localizer::left_out(const StoredPoint& point, const Foot& foot) const {
+  return point.outside_window || (foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip);
+}
+
 void Localizer::include(FitSums& sums, const StoredPoint& point, const Measurement& m, const Vec6& x) const {
-  if (m.foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip) return;
+  if (left_out(point, m.foot)) return;
   sums.model.add(distance_row(m.projection, m.foot, m.r, x, frame_), x);
   const Region region = region_at(config_.tolerance, m.foot.patch, m.foot.u, m.foot.v);
   sums.regions[static_cast<std::size_t>(region)].add(m.foot.distance, point.sequence);
@@ -175,7 +188,7 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
 
   StoredPoint& own = place != nullptr ? *place : passing;
   if (place == nullptr) note(passing, measurement);
-  note(own, measure(own, Search::local));
+  note(own, measure(own, pose_, Search::local));
   judge(own);
   own.told_state = own.state;
   own.told_action = own.action;
@@ -248,7 +261,7 @@ void Localizer::judge(StoredPoint& point) {
   const double free = (determination_.free_directions.transpose() * gradient).norm() * kStartUncertainty * frame_.length;
   const double share = kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : config_.determined_mm);
   point.action = Action::none;
-  if (foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip) {
+  if (left_out(point, foot)) {
     point.state = PointState::rejected;
   } else if (free > share || (current_.model.count < kLeastFitted && !concluded_)) {
     point.state = PointState::pending;

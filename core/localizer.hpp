@@ -27,6 +27,8 @@ struct LocalizerConfig {
   double determined_mm = 0;            ///< largest standard uncertainty of a determined direction, at the design's half
                                        ///< diagonal; 0 = a thousandth of the half diagonal
   Pose start;                          ///< where the fit starts
+  double window_low = 0;               ///< points whose foot at the start pose has u or v below this are rejected
+  double window_high = 1;              ///< or above this (thesis 7: 0.05 and 0.95)
   ToleranceMap tolerance;
 };
 
@@ -122,7 +124,9 @@ class Localizer {
   };
 
   [[nodiscard]] Status check(const ProbePoint& point) const;
-  [[nodiscard]] Measurement measure(const StoredPoint& point, Search search) const;
+  [[nodiscard]] bool outside_window(const StoredPoint& point) const;
+  [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const;
+  [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose, Search search) const;
   [[nodiscard]] StoredPoint admitted(const ProbePoint& point, Measurement& measurement) const;
   StoredPoint* store(const StoredPoint& point, const Measurement& measurement);
   void note(StoredPoint& point, const Measurement& measurement);

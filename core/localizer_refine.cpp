@@ -21,7 +21,7 @@ void Localizer::begin_sweep() {
 
 void Localizer::refresh_next(const Vec6& x, Search search) {
   StoredPoint& point = points_[cursor_];
-  const Measurement m = measure(point, search);
+  const Measurement m = measure(point, pose_, search);
   if (m.changed) ++refinement_.changed;
   note(point, m);
   judge(point);

@@ -18,6 +18,7 @@ struct StoredPoint {
   PointState state = PointState::pending, told_state = PointState::pending;  ///< told: what the caller knows
   Action action = Action::none, told_action = Action::none;
   bool queued = false;            ///< waits in the ring of revisions
+  bool outside_window = false;    ///< does not count in the fit
 };
 
 /// Sums over the points of one region, at the poses they were last projected at.

@@ -1,0 +1,47 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "tools/compile_command.hpp"
+#include "tools/localize_command.hpp"
+#include "tools/panel_command.hpp"
+#include "tools/report_command.hpp"
+#include "tools/run_command.hpp"
+#include "tools/simulate_command.hpp"
+
+namespace {
+
+constexpr int kBadInput = 2;
+
+constexpr const char* kFooter =
+    "A first try:\n"
+    "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1 --json out.json\n"
+    "Exit codes: 0 done, 1 the blade is out of tolerance, 2 wrong use or bad input, 3 device or I/O failure.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("bladefit: live localization of marine propeller blades on a coordinate measuring machine", "bladefit");
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  int exit_code = 0;
+  bladefit::add_compile_command(app, exit_code);
+  bladefit::add_localize_command(app, exit_code);
+  bladefit::add_simulate_command(app, exit_code);
+  bladefit::add_run_command(app, exit_code);
+  bladefit::add_panel_command(app, exit_code);
+  bladefit::add_report_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n", error.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bladefit: %s\n", error.what());
+    return kBadInput;
+  }
+  return exit_code;
+}
