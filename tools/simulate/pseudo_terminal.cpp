@@ -39,6 +39,9 @@ PseudoTerminal::~PseudoTerminal() {
 }
 
 void PseudoTerminal::replace() {
+  // With a link the new one is there before the old one goes, so that no reader finds a dead link. Without one the old
+  // one goes first, so that the new one mostly gets its name.
+  const Descriptor old = link_.empty() ? Descriptor() : std::move(master_);
   master_.close();
   open();
 }

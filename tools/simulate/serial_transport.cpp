@@ -12,7 +12,7 @@ namespace bladefit::simulate {
 namespace protocol = serial_protocol_v1;
 namespace {
 
-constexpr std::size_t kOutputLimit = 1024;  ///< bytes that wait for the line before no further record is made [bytes]
+constexpr std::size_t kOutputLimit = 1024;  ///< while more waits for the line no further record is sent [bytes]
 constexpr std::size_t kInputLimit = 4096;   ///< a host that sends this much without an end of line sends noise [bytes]
 constexpr auto kEndPeriod = std::chrono::seconds(1);
 
@@ -87,6 +87,7 @@ void SerialTransport::publish(Clock::time_point now) {
     ++sent_;
     if (sent_ == machine_.total()) end_due_ = now;
     send_record(sent_, now);
+    flush();
   }
   if (streaming_ && end_due_ && *end_due_ <= now) {
     // Repeated, because nothing in the protocol tells the machine that the host has it.

@@ -17,6 +17,12 @@ StopSignal::StopSignal() {
   if (!descriptor_) throw Failure(kExitDevice, "no descriptor left for signals; close other programs");
 }
 
-StopSignal::~StopSignal() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+StopSignal::~StopSignal() {
+  // A signal that was seen but not taken would strike as soon as it is let through again.
+  signalfd_siginfo taken{};
+  while (::read(descriptor_.get(), &taken, sizeof taken) > 0) {
+  }
+  sigprocmask(SIG_SETMASK, &before_, nullptr);
+}
 
 }  // namespace bladefit::simulate
