@@ -13,13 +13,6 @@
 namespace bladefit {
 namespace {
 
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 DesignFile read_unchecked(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".igs" || extension == ".iges") return read_iges(path);
@@ -29,6 +22,13 @@ DesignFile read_unchecked(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
 
 std::string read_text(const std::filesystem::path& path) {
   std::error_code error;

@@ -45,6 +45,9 @@ LoadedDesign load_design(const std::filesystem::path& path, OutwardOption outwar
 /// "+", "-" or "auto" as the command line spells them. Throws DesignError for anything else.
 OutwardOption parse_outward(std::string_view text);
 
+/// The extension of `path` in lower case, with its dot.
+std::string lower_extension(const std::filesystem::path& path);
+
 /// The whole file. Throws DesignError: bad_input where it does not exist or is a folder, io_failure where reading
 /// fails.
 std::string read_text(const std::filesystem::path& path);

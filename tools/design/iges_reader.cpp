@@ -83,8 +83,6 @@ SurfaceDirection read_direction(const IGESGeom_BSplineSurface& entity, bool alon
   SurfaceDirection direction;
   direction.degree = along_u ? entity.DegreeU() : entity.DegreeV();
   direction.control_points = along_u ? entity.NbPolesU() : entity.NbPolesV();
-  direction.start = along_u ? entity.UMin() : entity.VMin();
-  direction.end = along_u ? entity.UMax() : entity.VMax();
   const int last_knot = direction.control_points;
   for (int k = -direction.degree; k <= last_knot; ++k) {
     direction.knots.push_back(along_u ? entity.KnotU(k) : entity.KnotV(k));
@@ -92,12 +90,25 @@ SurfaceDirection read_direction(const IGESGeom_BSplineSurface& entity, bool alon
   return direction;
 }
 
-NurbsSurface read_surface(const IGESGeom_BSplineSurface& entity, int directory_number, double mm) {
+std::string surface_name(const IGESGeom_BSplineSurface& entity, int directory_number) {
+  const std::string number = fmt::format("entity 128 at D{}", directory_number);
+  const Handle(TCollection_HAsciiString) label = entity.ShortLabel();
+  if (label.IsNull()) return number;
+  const std::string text = label->ToCString();
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? number : fmt::format("{} ({})", number, text.substr(first));
+}
+
+NurbsSurface read_surface(const IGESGeom_BSplineSurface& entity, const IgesSurfaceRange& range, double mm) {
   NurbsSurface surface;
-  surface.name = fmt::format("entity 128 at D{}", directory_number);
-  if (!entity.ShortLabel().IsNull()) surface.name += fmt::format(" ({})", entity.ShortLabel()->ToCString());
+  surface.name = surface_name(entity, range.directory_number);
   surface.u = read_direction(entity, true);
   surface.v = read_direction(entity, false);
+  // From the text: OpenCASCADE 7.6 takes V0 for U1 and U1 for V0.
+  surface.u.start = range.start_u;
+  surface.u.end = range.end_u;
+  surface.v.start = range.start_v;
+  surface.v.end = range.end_v;
   const gp_GTrsf location = entity.CompoundLocation();
   for (int i = 0; i < surface.u.control_points; ++i) {
     for (int j = 0; j < surface.v.control_points; ++j) {
@@ -155,13 +166,15 @@ DesignFile read_model(const std::string& file, const IgesContents& contents) {
   if (const std::string note = shown_unit_note(unit); !note.empty()) design.warnings.push_back(note);
   const double mm = read_scale(global, unit, design, file);
   check_contents(contents, design, file);
-  for (const int directory_number : contents.surfaces) {
-    const auto entity = Handle(IGESGeom_BSplineSurface)::DownCast(model->Entity((directory_number + 1) / 2));
+  for (const IgesSurfaceRange& range : contents.surfaces) {
+    const int number = (range.directory_number + 1) / 2;
+    const auto entity = number > model->NbEntities() ? Handle(IGESGeom_BSplineSurface)()
+                                                     : Handle(IGESGeom_BSplineSurface)::DownCast(model->Entity(number));
     if (entity.IsNull()) {
       throw DesignError(
-          fmt::format("{}: entity 128 at D{} cannot be parsed; export the design again", file, directory_number));
+          fmt::format("{}: entity 128 at D{} cannot be parsed; export the design again", file, range.directory_number));
     }
-    design.surfaces.push_back(read_surface(*entity, directory_number, mm));
+    design.surfaces.push_back(read_surface(*entity, range, mm));
   }
   return design;
 }

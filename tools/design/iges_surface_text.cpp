@@ -72,7 +72,8 @@ int integer_field(const std::vector<Field>& fields, std::size_t index, const cha
 
 }  // namespace
 
-void check_iges_surface(const IgesParameters& parameters, const IgesDelimiters& delimiters, const std::string& file) {
+IgesSurfaceRange check_iges_surface(const IgesParameters& parameters, const IgesDelimiters& delimiters,
+                                    const std::string& file) {
   const std::vector<Field> fields = split_fields(parameters, delimiters);
   const auto integer = [&](std::size_t index, const char* name, int lowest, int highest) {
     return integer_field(fields, index, name, lowest, highest, parameters, file);
@@ -91,13 +92,18 @@ void check_iges_surface(const IgesParameters& parameters, const IgesDelimiters& 
                      "or control points not matching",
                      fields.size(), last_u, last_v, degree_u, degree_v, needed));
   }
+  std::vector<double> values;
   for (std::size_t k = 0; k < needed; ++k) {
-    if (!parse_real(fields[k].text)) {
+    const std::optional<double> value = parse_real(fields[k].text);
+    if (!value) {
       fail(file, parameters.directory_number,
            fmt::format("parameter {} is \"{}\", which is not a finite number (line {})", k, fields[k].text,
                        fields[k].line));
     }
+    values.push_back(*value);
   }
+  const double* range = &values[needed - 4];
+  return {parameters.directory_number, range[0], range[1], range[2], range[3]};
 }
 
 }  // namespace bladefit

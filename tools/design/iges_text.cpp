@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <optional>
 
 #include "tools/design/design_error.hpp"
-#include "tools/design/iges_surface_text.hpp"
 
 namespace bladefit {
 namespace {
@@ -163,8 +161,7 @@ IgesContents check_iges_text(std::string_view text, const std::string& file) {
     const IgesParameters parameters = find_parameters(sections, entry);
     ++contents.type_counts[*type];
     if (*type != kIgesSurfaceType) continue;
-    check_iges_surface(parameters, delimiters, file);
-    contents.surfaces.push_back(parameters.directory_number);
+    contents.surfaces.push_back(check_iges_surface(parameters, delimiters, file));
   }
   return contents;
 }

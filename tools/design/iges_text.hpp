@@ -4,12 +4,14 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/design/iges_surface_text.hpp"
+
 namespace bladefit {
 
 /// What the text of an IGES file says it holds.
 struct IgesContents {
-  std::vector<int> surfaces;       ///< directory numbers of the entities 128, in the order of the file
-  std::map<int, int> type_counts;  ///< number of entities of each type
+  std::vector<IgesSurfaceRange> surfaces;  ///< the entities 128, in the order of the file
+  std::map<int, int> type_counts;          ///< number of entities of each type
 };
 
 /// Checks the text of an IGES file before a library parses it: records of 80 columns numbered without gap, the sections

@@ -52,8 +52,7 @@ OutwardOption parse_outward(std::string_view text) {
 }
 
 LoadedDesign load_design(const std::filesystem::path& path, OutwardOption outward) {
-  const std::string extension = path.extension().string();
-  if (extension == ".bfd" || extension == ".BFD") return load_image(path, outward);
+  if (lower_extension(path) == ".bfd") return load_image(path, outward);
   const DesignFile file = read_design(path);
   const OutwardSide side = choose_side(file, path.string(), outward);
   LoadedDesign design{write_image(file.surfaces, file.unit, side.sign), file.warnings};

@@ -16,7 +16,7 @@ namespace {
 /// Facets a patch is divided into, in each direction, at least; spans with more knots get one a span.
 constexpr std::size_t kFacets = 48;
 /// Points from which the winding number is taken, over all patches.
-constexpr std::size_t kSamples = 400;
+constexpr std::size_t kSamples = 160;
 /// From where on a winding number counts as "enclosed". An open sheet has 0, a closed body 1/2.
 constexpr double kEnclosed = 0.3;
 /// Part of the area that must agree.

@@ -1,6 +1,7 @@
 #include "tools/design/step_reader.hpp"
 
 #include <fmt/format.h>
+#include <Interface_Check.hxx>
 #include <STEPControl_Reader.hxx>
 #include <StepGeom_BSplineSurface.hxx>
 #include <StepRepr_MappedItem.hxx>

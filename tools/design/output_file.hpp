@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <string_view>
+
+namespace bladefit {
+
+/// A file that comes to stand under its name only as a whole: the content is written beside it under another name and
+/// moved in place by commit(). Without commit() nothing is left behind.
+class OutputFile {
+ public:
+  /// Writes `content`. Throws DesignError (io_failure) where that fails, and bad_input where `path` is something else
+  /// than a regular file or a new name.
+  OutputFile(const std::filesystem::path& path, std::string_view content);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// Moves the content in place of what stood there. Throws DesignError (io_failure).
+  void commit();
+
+ private:
+  std::filesystem::path path_, temporary_;
+};
+
+}  // namespace bladefit
