@@ -25,10 +25,13 @@ constexpr std::size_t rounded_up(std::size_t size) { return (size + kAlignment -
 
 Vec3 to_vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
-bool finite(const std::array<double, 3>& a) { return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]); }
+bool finite(const std::array<double, 3>& a) {
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
 
 bool tolerances_valid(const ToleranceMap& map, std::size_t patches) {
-  const bool numbers = map.leading_edge_mm > 0.0 && map.rest_mm > 0.0 && std::isfinite(map.transition) && map.transition >= 0.0;
+  const bool numbers =
+      map.leading_edge_mm > 0.0 && map.rest_mm > 0.0 && std::isfinite(map.transition) && map.transition >= 0.0;
   if (!numbers || map.box_count > ToleranceMap::kMaxBoxes) return false;
   return std::all_of(map.boxes.begin(), map.boxes.begin() + map.box_count, [patches](const ParameterBox& b) {
     return b.patch < patches && b.u_min <= b.u_max && b.v_min <= b.v_max;
@@ -258,7 +261,8 @@ void Localizer::judge(StoredPoint& point) {
   gradient.tail<3>() = foot.normal;
   point.uncertainty = sigma_ * std::sqrt(gradient.dot(covariance_ * gradient));
 
-  const double free = (determination_.free_directions.transpose() * gradient).norm() * kStartUncertainty * frame_.length;
+  const double free =
+      (determination_.free_directions.transpose() * gradient).norm() * kStartUncertainty * frame_.length;
   const double share = kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : config_.determined_mm);
   point.action = Action::none;
   if (left_out(point, foot)) {

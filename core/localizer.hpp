@@ -18,17 +18,17 @@ namespace bladefit {
 enum class EdgePolicy : std::uint8_t { skip = 0, use = 1 };
 
 struct LocalizerConfig {
-  std::uint32_t capacity = 65536;      ///< points that keep a place; later ones are judged and counted only
-  std::uint32_t refresh_per_push = 8;  ///< K: stored points projected anew in each push (2..64)
-  double probe_radius_mm = 0;          ///< points are centres of a ball of this radius
-  bool use_approach = true;            ///< approach vectors choose the side of the blade
-  EdgePolicy edges = EdgePolicy::skip; ///< whether feet on edges and corners count in the fit
-  double noise_floor_mm = 0.005;       ///< least standard deviation assumed of a distance when judging what is determined
-  double determined_mm = 0;            ///< largest standard uncertainty of a determined direction, at the design's half
-                                       ///< diagonal; 0 = a thousandth of the half diagonal
-  Pose start;                          ///< where the fit starts
-  double window_low = 0;               ///< points whose foot at the start pose has u or v below this are rejected
-  double window_high = 1;              ///< or above this (thesis 7: 0.05 and 0.95)
+  std::uint32_t capacity = 65536;       ///< points that keep a place; later ones are judged and counted only
+  std::uint32_t refresh_per_push = 8;   ///< K: stored points projected anew in each push (2..64)
+  double probe_radius_mm = 0;           ///< points are centres of a ball of this radius
+  bool use_approach = true;             ///< approach vectors choose the side of the blade
+  EdgePolicy edges = EdgePolicy::skip;  ///< whether feet on edges and corners count in the fit
+  double noise_floor_mm = 0.005;  ///< least standard deviation assumed of a distance when judging what is determined
+  double determined_mm = 0;       ///< largest standard uncertainty of a determined direction, at the design's half
+                                  ///< diagonal; 0 = a thousandth of the half diagonal
+  Pose start;                     ///< where the fit starts
+  double window_low = 0;          ///< points whose foot at the start pose has u or v below this are rejected
+  double window_high = 1;         ///< or above this (thesis 7: 0.05 and 0.95)
   ToleranceMap tolerance;
 };
 
@@ -36,8 +36,8 @@ enum class FitStatus : std::uint8_t { underdetermined = 0, tracking = 1, converg
 
 /// Figures of one region, over the points that count in the fit.
 struct RegionReport {
-  std::uint32_t count = 0;           ///< points of the region that count in the fit
-  std::uint32_t judged_out = 0;      ///< points whose present state is out
+  std::uint32_t count = 0;       ///< points of the region that count in the fit
+  std::uint32_t judged_out = 0;  ///< points whose present state is out
   double rms_mm = 0;
   double worst_mm = 0;               ///< distance of largest magnitude, signed
   std::uint32_t worst_sequence = 0;  ///< 0 = no point yet
@@ -48,16 +48,16 @@ struct FitReport {
   Pose pose;
   /// sigma^2 (J'J)^-1 for (w, dt) of C' = exp([w]x) C, t' = t + dt [rad, mm]; zero unless all six are determined
   Mat6 covariance = Mat6::Zero();
-  std::uint32_t determined = 0;      ///< degrees of freedom, 0..6
-  std::uint32_t points = 0;          ///< accepted so far
-  std::uint32_t fitted = 0;          ///< of these, how many count in the fit
+  std::uint32_t determined = 0;  ///< degrees of freedom, 0..6
+  std::uint32_t points = 0;      ///< accepted so far
+  std::uint32_t fitted = 0;      ///< of these, how many count in the fit
   std::uint32_t rejected = 0;
-  double rms_mm = 0;                 ///< sqrt(sum d^2 / fitted)
-  double sigma_mm = 0;               ///< sqrt(sum d^2 / (fitted - 6)); 0 below 7 points
-  double smallest_eigenvalue = 0;    ///< of the scaled information matrix per point (dimensionless)
-  double gradient = 0;               ///< size of the last Newton step [mm at the design's half diagonal]: the self check
+  double rms_mm = 0;               ///< sqrt(sum d^2 / fitted)
+  double sigma_mm = 0;             ///< sqrt(sum d^2 / (fitted - 6)); 0 below 7 points
+  double smallest_eigenvalue = 0;  ///< of the scaled information matrix per point (dimensionless)
+  double gradient = 0;             ///< size of the last Newton step [mm at the design's half diagonal]: the self check
   RegionReport leading_edge, rest;
-  std::uint32_t revision = 0;        ///< +1 whenever the pose moves
+  std::uint32_t revision = 0;  ///< +1 whenever the pose moves
   bool memory_full = false;
 };
 
@@ -71,8 +71,8 @@ class Localizer {
   /// Builds a localizer inside `memory`, which the caller owns and releases after the last use (no destructor is
   /// needed). The memory under `design` must outlive it. Returns ok, null_argument, misaligned (64 bytes),
   /// not_enough_memory or out_of_range (a field of config).
-  [[nodiscard]] static Status create(std::span<std::byte> memory, const DesignImage& design, const LocalizerConfig& config,
-                                     Localizer*& localizer);
+  [[nodiscard]] static Status create(std::span<std::byte> memory, const DesignImage& design,
+                                     const LocalizerConfig& config, Localizer*& localizer);
 
   /// Projects the point, adds it, moves the pose and judges. Bounded work, whatever came before.
   /// Returns ok, underdetermined, memory_full or duplicate; not_finite or out_of_range (approach not a unit vector or
@@ -117,7 +117,7 @@ class Localizer {
     bool active = false;
     Search search = Search::local;
     std::uint32_t sweeps = 0, changed = 0;
-    double last_value = 0;      ///< sum 1/2 d^2 of the sweep before
+    double last_value = 0;  ///< sum 1/2 d^2 of the sweep before
     std::uint32_t last_count = 0;
     Pose last_pose;
     Vec6 last_step = Vec6::Zero();

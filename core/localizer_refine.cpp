@@ -7,7 +7,8 @@ namespace bladefit {
 namespace {
 
 constexpr std::uint32_t kMaxSweeps = 100;
-/// Steps [half diagonals]: below the first the feet are checked by global search, below the second the fit has converged.
+/// Steps [half diagonals]: below the first the feet are checked by global search, below the second the fit has
+/// converged.
 constexpr double kCheckBelow = 1e-6;
 constexpr double kConvergedBelow = 1e-12;
 
@@ -46,7 +47,8 @@ void Localizer::refresh(std::uint32_t budget) {
 bool Localizer::retreat() {
   Refinement& r = refinement_;
   const QuadraticModel& model = current_.model;
-  const bool comparable = r.sweeps > 1 && model.count == r.last_count && r.last_step.norm() > kCheckBelow * frame_.length;
+  const bool comparable =
+      r.sweeps > 1 && model.count == r.last_count && r.last_step.norm() > kCheckBelow * frame_.length;
   if (!comparable || model.half_square <= r.last_value * (1.0 + 1e-9)) return false;
   r.last_step *= 0.25;
   pose_ = moved(r.last_pose, r.last_step, frame_);

@@ -5,17 +5,17 @@ namespace bladefit {
 
 /// Which directions of motion the points determine, from the eigenvalues of the information matrix sum J J'.
 struct Determination {
-  std::uint32_t rank = 0;            ///< determined directions, 0..6
-  double smallest = 0;               ///< smallest eigenvalue per point, dimensionless
-  Mat6 projector = Mat6::Zero();     ///< onto the determined directions
+  std::uint32_t rank = 0;               ///< determined directions, 0..6
+  double smallest = 0;                  ///< smallest eigenvalue per point, dimensionless
+  Mat6 projector = Mat6::Zero();        ///< onto the determined directions
   Mat6 free_directions = Mat6::Zero();  ///< its first 6 - rank columns: unit vectors of the others
 };
 
 /// A direction counts as determined when its eigenvalue reaches `threshold`. Cost: one symmetric 6 x 6 eigenproblem.
 [[nodiscard]] Determination determine(const QuadraticModel& model, double threshold);
 
-/// Minimum of the model over x, started from x0 and moved in the determined directions only. Newton with the exact Hessian
-/// where it is positive definite there, Gauss-Newton otherwise. Cost: one or two 6 x 6 Cholesky decompositions.
+/// Minimum of the model over x, started from x0 and moved in the determined directions only. Newton with the exact
+/// Hessian where it is positive definite there, Gauss-Newton otherwise. Cost: one or two 6 x 6 Cholesky decompositions.
 [[nodiscard]] Vec6 minimum_of(const QuadraticModel& model, const Determination& determination, const Vec6& x0);
 
 /// (sum J J')^-1 with `ridge` added to every direction that is not determined: the covariance of x for unit variance.

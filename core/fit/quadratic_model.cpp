@@ -7,12 +7,14 @@
 namespace bladefit {
 namespace {
 
-/// Directions in space as directions in x: [Jl(w)' (a x direction) / L, direction], Jl the left Jacobian of the rotation,
-/// taken to first order.
+/// Directions in space as directions in x: [Jl(w)' (a x direction) / L, direction], Jl the left Jacobian of the
+/// rotation, taken to first order.
 class Lever {
  public:
   Lever(const Vec3& r, const Vec6& x, const MotionFrame& frame)
-      : arm_(r - frame.pivot - x.tail<3>()), half_w_(0.5 / frame.length * x.head<3>()), inverse_length_(1.0 / frame.length) {}
+      : arm_(r - frame.pivot - x.tail<3>()),
+        half_w_(0.5 / frame.length * x.head<3>()),
+        inverse_length_(1.0 / frame.length) {}
 
   [[nodiscard]] Vec6 operator()(const Vec3& direction) const {
     const Vec3 moment = arm_.cross(direction);

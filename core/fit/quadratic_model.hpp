@@ -24,18 +24,18 @@ struct DistanceRow {
 };
 
 /// Row of a projection at the pose that stands `x` away from the reference. `foot` is foot_of() the projection.
-/// Cost: about 150 multiplications. The bend is exact at x = 0 (Weingarten's equations; an edge or corner foot has that of
-/// the distance to a curve or a point); elsewhere the error is of first order in |w|.
+/// Cost: about 150 multiplications. The bend is exact at x = 0 (Weingarten's equations; an edge or corner foot has that
+/// of the distance to a curve or a point); elsewhere the error is of first order in |w|.
 [[nodiscard]] DistanceRow distance_row(const Projection& projection, const Foot& foot, const Vec3& r, const Vec6& x,
                                        const MotionFrame& frame);
 
 /// Sum of 1/2 d_i^2 as a quadratic function of x about a reference pose.
 struct QuadraticModel {
   Pose reference;
-  Mat6 gauss = Mat6::Zero();      ///< sum J J'
-  Mat6 bend = Mat6::Zero();       ///< sum d * d^2 d/dx^2: gauss + bend is the exact Hessian
-  Vec6 gradient = Vec6::Zero();   ///< at x = 0
-  double half_square = 0;         ///< sum 1/2 d^2 at x = 0
+  Mat6 gauss = Mat6::Zero();     ///< sum J J'
+  Mat6 bend = Mat6::Zero();      ///< sum d * d^2 d/dx^2: gauss + bend is the exact Hessian
+  Vec6 gradient = Vec6::Zero();  ///< at x = 0
+  double half_square = 0;        ///< sum 1/2 d^2 at x = 0
   std::uint32_t count = 0;
 
   /// Adds a row taken at `x`.

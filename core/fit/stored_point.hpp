@@ -10,15 +10,15 @@ namespace bladefit {
 /// A point that keeps its place in the localizer's memory.
 struct StoredPoint {
   Vec3 position = Vec3::Zero(), approach = Vec3::Zero();  ///< machine coordinates
-  Foot foot;                      ///< at the pose it was last projected at
-  std::uint32_t span = 0;         ///< of the foot
+  Foot foot;                                              ///< at the pose it was last projected at
+  std::uint32_t span = 0;                                 ///< of the foot
   std::uint32_t sequence = 0, revision = 0;
   double tolerance = 0, uncertainty = 0;
   Region region = Region::rest;
   PointState state = PointState::pending, told_state = PointState::pending;  ///< told: what the caller knows
   Action action = Action::none, told_action = Action::none;
-  bool queued = false;            ///< waits in the ring of revisions
-  bool outside_window = false;    ///< does not count in the fit
+  bool queued = false;          ///< waits in the ring of revisions
+  bool outside_window = false;  ///< does not count in the fit
 };
 
 /// Sums over the points of one region, at the poses they were last projected at.
@@ -38,8 +38,8 @@ struct RegionSums {
   }
 };
 
-/// Everything that is summed over the points. Nothing is ever subtracted, so rounding does not build up: a sweep over the
-/// stored points fills a new set, which then takes the place of the old one.
+/// Everything that is summed over the points. Nothing is ever subtracted, so rounding does not build up: a sweep over
+/// the stored points fills a new set, which then takes the place of the old one.
 struct FitSums {
   QuadraticModel model;
   std::array<RegionSums, 2> regions;

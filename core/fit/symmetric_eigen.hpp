@@ -9,8 +9,8 @@ struct SymmetricEigen {
   Mat6 vectors;
 };
 
-/// Cyclic Jacobi: no memory but the stack, at most 30 sweeps (4 to 7 are usual), small eigenvalues as exact as large ones
-/// allow. Cost: about 5 us.
+/// Cyclic Jacobi: no memory but the stack, at most 30 sweeps (4 to 7 are usual), small eigenvalues as exact as large
+/// ones allow. Cost: about 5 us.
 [[nodiscard]] SymmetricEigen symmetric_eigen(const Mat6& matrix);
 
 }  // namespace bladefit

@@ -116,13 +116,16 @@ void evaluate_bezier(const double* net, std::uint32_t degree_u, std::uint32_t de
   sum_net<0, 0>(net, bu, bv, degree_u + 1, degree_v + 1, out);
 }
 
-void restrict_net(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, const LocalRect& rect, BezierNet& out) {
+void restrict_net(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, const LocalRect& rect,
+                  BezierNet& out) {
   out.degree_u = degree_u;
   out.degree_v = degree_v;
   const std::uint32_t columns = degree_v + 1, count = (degree_u + 1) * columns;
   for (std::uint32_t k = 0; k < count; ++k) out.points[k] = NetPoint(net + 4U * k);
-  for (std::uint32_t j = 0; j < columns; ++j) restrict_polygon(&out.points[j], degree_u, columns, rect.s_min, rect.s_max);
-  for (std::uint32_t i = 0; i <= degree_u; ++i) restrict_polygon(&out.points[i * columns], degree_v, 1, rect.t_min, rect.t_max);
+  for (std::uint32_t j = 0; j < columns; ++j)
+    restrict_polygon(&out.points[j], degree_u, columns, rect.s_min, rect.s_max);
+  for (std::uint32_t i = 0; i <= degree_u; ++i)
+    restrict_polygon(&out.points[i * columns], degree_v, 1, rect.t_min, rect.t_max);
 }
 
 }  // namespace bladefit

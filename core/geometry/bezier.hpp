@@ -36,6 +36,7 @@ struct LocalRect {
 };
 
 /// Net of the part of a span over `rect`, by two de Casteljau cuts in each direction.
-void restrict_net(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, const LocalRect& rect, BezierNet& out);
+void restrict_net(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, const LocalRect& rect,
+                  BezierNet& out);
 
 }  // namespace bladefit

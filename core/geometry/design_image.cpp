@@ -71,7 +71,8 @@ bool net_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p
   const auto coefficients = image.coefficients();
   if (s.first_coefficient > coefficients.size() || 4 * count > coefficients.size() - s.first_coefficient) return false;
   const ImageNode& leaf = image.nodes()[s.leaf];
-  for (const double* c = &coefficients[s.first_coefficient]; c != &coefficients[s.first_coefficient] + 4 * count; c += 4) {
+  for (const double* c = &coefficients[s.first_coefficient]; c != &coefficients[s.first_coefficient] + 4 * count;
+       c += 4) {
     const double w = c[3];
     if (!(w > 0.0) || !std::isfinite(w) || (p.rational == 0 && w != 1.0)) return false;
     for (int k = 0; k < 3; ++k) {
@@ -86,9 +87,11 @@ bool spans_valid(const DesignImage& image) {
     const ImageSpan& s = image.spans()[i];
     if (s.patch >= image.patches().size()) return false;
     const ImagePatch& p = image.patches()[s.patch];
-    if (s.iu >= p.spans_u || s.iv >= p.spans_v || i != p.first_span + static_cast<std::uint64_t>(s.iu) * p.spans_v + s.iv)
+    if (s.iu >= p.spans_u || s.iv >= p.spans_v ||
+        i != p.first_span + static_cast<std::uint64_t>(s.iu) * p.spans_v + s.iv)
       return false;
-    if (s.leaf >= image.nodes().size() || image.nodes()[s.leaf].right != 0 || image.nodes()[s.leaf].span != i) return false;
+    if (s.leaf >= image.nodes().size() || image.nodes()[s.leaf].right != 0 || image.nodes()[s.leaf].span != i)
+      return false;
     if (!cone_valid(s) || !net_valid(image, s, p)) return false;
   }
   return true;
@@ -133,7 +136,8 @@ Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
                       array_fits<double>(h.breaks_offset, h.break_count, h.total_size) &&
                       array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size);
   const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.node_count >= 1;
-  const bool fields = h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && finite3(h.box_min) && finite3(h.box_max);
+  const bool fields =
+      h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && finite3(h.box_min) && finite3(h.box_max);
   return arrays && counts && fields ? Status::ok : Status::bad_content;
 }
 

@@ -33,21 +33,21 @@ struct ImageHeader {
 
 /// One NURBS patch, cut into spans_u x spans_v Bezier spans.
 struct ImagePatch {
-  std::uint32_t degree_u, degree_v;      ///< 1..9
+  std::uint32_t degree_u, degree_v;  ///< 1..9
   std::uint32_t spans_u, spans_v;
-  std::uint32_t first_span;              ///< span (iu, iv) is spans[first_span + iu * spans_v + iv]
+  std::uint32_t first_span;                    ///< span (iu, iv) is spans[first_span + iu * spans_v + iv]
   std::uint32_t first_break_u, first_break_v;  ///< spans_u + 1 (spans_v + 1) rising parameters, the first 0, the last 1
-  std::uint32_t rational;                ///< 0: every weight is 1
+  std::uint32_t rational;                      ///< 0: every weight is 1
 };
 
 /// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
 /// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w).
 struct ImageSpan {
   std::uint32_t patch, iu, iv;
-  std::uint32_t leaf;        ///< index of the node whose leaf it is
+  std::uint32_t leaf;  ///< index of the node whose leaf it is
   std::uint64_t first_coefficient;
-  double cone_axis[3];       ///< every outward normal of the span is within the cone about this unit axis
-  double cone_cosine;        ///< cosine of the half angle; -1 where no bound is known
+  double cone_axis[3];  ///< every outward normal of the span is within the cone about this unit axis
+  double cone_cosine;   ///< cosine of the half angle; -1 where no bound is known
 };
 
 /// Node of the binary bounding tree, in depth-first order: the left child of node k is k + 1.
@@ -57,7 +57,8 @@ struct ImageNode {
   std::uint32_t span;             ///< of a leaf; 0 in inner nodes
 };
 
-static_assert(sizeof(ImageHeader) == 144 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 && sizeof(ImageNode) == 56);
+static_assert(sizeof(ImageHeader) == 144 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 &&
+              sizeof(ImageNode) == 56);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.
 [[nodiscard]] std::uint32_t image_crc(std::span<const std::byte> image);

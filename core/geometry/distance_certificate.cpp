@@ -83,7 +83,8 @@ bool strictly_convex(const ScalarNet& g) {
 bool beyond_plane(const BezierNet& net, const Vec3& r, double bound) {
   const std::uint32_t count = (net.degree_u + 1) * (net.degree_v + 1);
   const Homogeneous origin(r[0], r[1], r[2], 0.0);
-  Homogeneous middle = net.at(0, 0) + net.at(0, net.degree_v) + net.at(net.degree_u, 0) + net.at(net.degree_u, net.degree_v);
+  Homogeneous middle =
+      net.at(0, 0) + net.at(0, net.degree_v) + net.at(net.degree_u, 0) + net.at(net.degree_u, net.degree_v);
   middle -= middle[3] * origin;
   const double length = std::sqrt(middle.head<3>().square().sum());
   if (!(length > 0.0)) return false;
@@ -105,7 +106,8 @@ DistanceCertificate certify_distance(const BezierNet& net, const Vec3& r, double
   const std::uint32_t count = (g.m + 1) * (g.n + 1);
   const double least = *std::min_element(g.c.begin(), g.c.begin() + count);
   double least_weight = INFINITY;
-  for (std::uint32_t k = 0; k < (net.degree_u + 1) * (net.degree_v + 1); ++k) least_weight = std::min(least_weight, net.points[k][3]);
+  for (std::uint32_t k = 0; k < (net.degree_u + 1) * (net.degree_v + 1); ++k)
+    least_weight = std::min(least_weight, net.points[k][3]);
   DistanceCertificate certificate;
   certificate.farther = least >= -tolerance * least_weight * least_weight;
   certificate.convex = !certificate.farther && strictly_convex(g);

@@ -32,7 +32,10 @@ struct Piece {
 class Search {
  public:
   Search(const Surface& surface, const ProjectionQuery& query)
-      : surface_(surface), query_(query), directed_(query.approach.squaredNorm() > 0.5), slack_(kSlack * surface.half_diagonal()) {}
+      : surface_(surface),
+        query_(query),
+        directed_(query.approach.squaredNorm() > 0.5),
+        slack_(kSlack * surface.half_diagonal()) {}
 
   void consider(const Projection& candidate) {
     if (!candidate.converged || !faces_probe(surface_, candidate, query_.approach)) return;
@@ -93,7 +96,9 @@ class Search {
 
   [[nodiscard]] ParameterLimits limits_of(std::uint32_t span, const LocalRect& rect) const {
     const SpanDomain d = surface_.domain(span);
-    const auto at = [](double low, double high, double x) { return x <= 0.0 ? low : x >= 1.0 ? high : low + x * (high - low); };
+    const auto at = [](double low, double high, double x) {
+      return x <= 0.0 ? low : x >= 1.0 ? high : low + x * (high - low);
+    };
     return {at(d.u_min, d.u_max, rect.s_min), at(d.u_min, d.u_max, rect.s_max), at(d.v_min, d.v_max, rect.t_min),
             at(d.v_min, d.v_max, rect.t_max)};
   }
@@ -155,8 +160,10 @@ class Search {
 
   /// Held at a limit that is not an edge of the patch.
   [[nodiscard]] static bool held_inside(const Projection& p, const ParameterLimits& limits) {
-    const bool u = p.fixed_u && ((p.place.u == limits.u_min && limits.u_min > 0.0) || (p.place.u == limits.u_max && limits.u_max < 1.0));
-    const bool v = p.fixed_v && ((p.place.v == limits.v_min && limits.v_min > 0.0) || (p.place.v == limits.v_max && limits.v_max < 1.0));
+    const bool u = p.fixed_u && ((p.place.u == limits.u_min && limits.u_min > 0.0) ||
+                                 (p.place.u == limits.u_max && limits.u_max < 1.0));
+    const bool v = p.fixed_v && ((p.place.v == limits.v_min && limits.v_min > 0.0) ||
+                                 (p.place.v == limits.v_max && limits.v_max < 1.0));
     return u || v;
   }
 

@@ -11,8 +11,8 @@ struct ProjectionQuery {
 
 struct GlobalProjection {
   Projection nearest;
-  bool proven = false;   ///< false: the cap on pieces was reached; `nearest` is the best found
-  bool faces = true;     ///< false: no local minimum faces the probe, so `nearest` is the nearest of all
+  bool proven = false;       ///< false: the cap on pieces was reached; `nearest` is the best found
+  bool faces = true;         ///< false: no local minimum faces the probe, so `nearest` is the nearest of all
   std::uint32_t pieces = 0;  ///< pieces of surface that were looked at
 };
 
@@ -21,10 +21,11 @@ inline constexpr std::uint32_t kMaxPieces = 8192;
 
 /// The nearest point of the whole design, by branch and bound over the bounding tree and, inside the spans, over
 /// rectangles whose distance is bounded by Bernstein coefficients. With an approach vector: the nearest local minimum
-/// whose outward normal faces the probe, n . approach < 0 (thesis 4; 2 % thick blades need it); where there is none, the
-/// nearest point of all. `hint` (may be null) is a projection to start from; the answer does not depend on it beyond
-/// rounding. Proven to within 1e-10 of the half diagonal of the design.
-[[nodiscard]] GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query, const Projection* hint);
+/// whose outward normal faces the probe, n . approach < 0 (thesis 4; 2 % thick blades need it); where there is none,
+/// the nearest point of all. `hint` (may be null) is a projection to start from; the answer does not depend on it
+/// beyond rounding. Proven to within 1e-10 of the half diagonal of the design.
+[[nodiscard]] GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query,
+                                              const Projection* hint);
 
 /// True where the outward normal of the projection faces the probe, or the approach is unknown.
 [[nodiscard]] bool faces_probe(const Surface& surface, const Projection& projection, const Vec3& approach);

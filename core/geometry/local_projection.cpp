@@ -8,7 +8,8 @@ namespace bladefit {
 namespace {
 
 constexpr int kMaxEvaluations = 60;
-/// Below this step [half diagonals] Newton's error is far under rounding: the rest is taken from the derivatives at hand.
+/// Below this step [half diagonals] Newton's error is far under rounding: the rest is taken from the derivatives at
+/// hand.
 constexpr double kLastStep = 1e-9;
 /// A tangential offset below this [half diagonals] counts as perpendicular.
 constexpr double kPerpendicular = 1e-11;
@@ -25,8 +26,14 @@ struct Quadratic {
 
 Quadratic quadratic_at(const SurfacePoint& p, const Vec3& offset) {
   const double m_uu = p.s_u.squaredNorm(), m_uv = p.s_u.dot(p.s_v), m_vv = p.s_v.squaredNorm();
-  return {-offset.dot(p.s_u), -offset.dot(p.s_v), m_uu - offset.dot(p.s_uu), m_uv - offset.dot(p.s_uv),
-          m_vv - offset.dot(p.s_vv), m_uu, m_vv, m_uv};
+  return {-offset.dot(p.s_u),
+          -offset.dot(p.s_v),
+          m_uu - offset.dot(p.s_uu),
+          m_uv - offset.dot(p.s_uv),
+          m_vv - offset.dot(p.s_vv),
+          m_uu,
+          m_vv,
+          m_uv};
 }
 
 double step_1d(double g, double h, double m, bool& newton) {
@@ -160,7 +167,8 @@ class Descent {
 
 }  // namespace
 
-Projection project_local(const Surface& surface, const Vec3& r, const SurfacePlace& start, const ParameterLimits& limits) {
+Projection project_local(const Surface& surface, const Vec3& r, const SurfacePlace& start,
+                         const ParameterLimits& limits) {
   return Descent(surface, r, start, limits).run();
 }
 

@@ -11,10 +11,10 @@ struct ParameterLimits {
 /// A local minimum of the distance from a point to the design.
 struct Projection {
   SurfacePlace place;
-  SurfacePoint at;                 ///< the surface there
-  Vec3 offset = Vec3::Zero();      ///< r - q [mm]
+  SurfacePoint at;                        ///< the surface there
+  Vec3 offset = Vec3::Zero();             ///< r - q [mm]
   bool fixed_u = false, fixed_v = false;  ///< held at a limit, the distance falling beyond it
-  bool converged = false;          ///< false: the iteration cap was reached or the point is a saddle
+  bool converged = false;                 ///< false: the iteration cap was reached or the point is a saddle
   [[nodiscard]] double distance_squared() const { return offset.squaredNorm(); }
 };
 

@@ -19,7 +19,8 @@ SurfacePoint Surface::evaluate(const SurfacePlace& place) const {
   const SpanDomain d = domain(place.span);
   const double scale_u = 1.0 / (d.u_max - d.u_min), scale_v = 1.0 / (d.v_max - d.v_min);
   HomogeneousDerivatives h;
-  evaluate_bezier(net(place.span), p.degree_u, p.degree_v, (place.u - d.u_min) * scale_u, (place.v - d.v_min) * scale_v, h);
+  evaluate_bezier(net(place.span), p.degree_u, p.degree_v, (place.u - d.u_min) * scale_u, (place.v - d.v_min) * scale_v,
+                  h);
   const double uu = scale_u * scale_u, uv = scale_u * scale_v, vv = scale_v * scale_v;
   SurfacePoint out{h.a.head<3>(),         h.a_u.head<3>() * scale_u, h.a_v.head<3>() * scale_v,
                    h.a_uu.head<3>() * uu, h.a_uv.head<3>() * uv,     h.a_vv.head<3>() * vv};

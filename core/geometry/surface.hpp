@@ -30,7 +30,9 @@ class Surface {
 
   [[nodiscard]] const DesignImage& image() const { return image_; }
   [[nodiscard]] const ImageSpan& span(std::uint32_t index) const { return image_.spans()[index]; }
-  [[nodiscard]] const ImagePatch& patch_of(std::uint32_t span_index) const { return image_.patches()[span(span_index).patch]; }
+  [[nodiscard]] const ImagePatch& patch_of(std::uint32_t span_index) const {
+    return image_.patches()[span(span_index).patch];
+  }
   [[nodiscard]] const double* net(std::uint32_t span_index) const {
     return image_.coefficients().data() + span(span_index).first_coefficient;
   }
@@ -46,7 +48,8 @@ class Surface {
   /// The place at (u, v) of a patch. Cost: linear in the number of spans of a row and a column.
   [[nodiscard]] SurfacePlace place_at(std::uint32_t patch, double u, double v) const;
 
-  /// Outward unit normal; where the parametrisation is degenerate (Su x Sv = 0), that of a place a little further inside.
+  /// Outward unit normal; where the parametrisation is degenerate (Su x Sv = 0), that of a place a little further
+  /// inside.
   [[nodiscard]] Vec3 normal(const SurfacePlace& place, const SurfacePoint& point) const;
 
   /// Half the diagonal of the box of the control points [mm]: the scale of all tolerances.

@@ -14,8 +14,8 @@ struct Verdict {
   std::uint32_t sequence = 0;
   Foot foot;
   Region region = Region::rest;
-  double tolerance_mm = 0;     ///< |distance| allowed at the foot; infinity where none was set
-  double uncertainty_mm = 0;   ///< standard uncertainty of the distance that comes from the pose
+  double tolerance_mm = 0;    ///< |distance| allowed at the foot; infinity where none was set
+  double uncertainty_mm = 0;  ///< standard uncertainty of the distance that comes from the pose
   PointState state = PointState::pending;
   Action action = Action::none;  ///< cut or weld where the state is out
   std::uint32_t revision = 0;    ///< fit revision it was judged at

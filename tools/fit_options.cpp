@@ -1,0 +1,165 @@
+#include "tools/fit_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+namespace bladefit {
+namespace {
+
+/// CLI11 option that writes to a std::optional.
+template <class T>
+CLI::Option* add(CLI::App& command, const std::string& name, std::optional<T>& target, const std::string& help) {
+  return command.add_option_function<T>(
+      name, [&target](const T& value) { target = value; }, help);
+}
+
+void take(const ConfigError& error) {
+  if (error) throw DesignError(error.message);
+}
+
+double positive(double value, const char* option) {
+  if (!(value > 0.0) || !std::isfinite(value))
+    throw DesignError(fmt::format("{}: {} is not a positive length; give one above 0", option, value));
+  return value;
+}
+
+void plan_boxes(const FitSettings& settings, const DesignImage& design, ToleranceMap& map) {
+  if (!settings.leading_edge) return;
+  if (settings.leading_edge->size() > ToleranceMap::kMaxBoxes)
+    throw DesignError(fmt::format("--leading-edge: {} boxes, at most {} are possible", settings.leading_edge->size(),
+                                  ToleranceMap::kMaxBoxes));
+  for (const std::string& text : *settings.leading_edge) {
+    ParameterBox box;
+    take(parse_leading_edge(text, box));
+    if (box.patch >= design.patches().size())
+      throw DesignError(fmt::format("--leading-edge {}: the design has {} patch(es), numbered from 0", text,
+                                    design.patches().size()));
+    map.boxes[map.box_count++] = box;
+  }
+}
+
+void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
+  ToleranceMap& map = plan.localizer.tolerance;
+  const double ratio = settings.ratio.value_or(10.0);
+  if (!(ratio >= 1.0))
+    throw DesignError(fmt::format("--ratio: {} is below 1; the rest has the wider tolerance", ratio));
+  if (settings.tolerance) {
+    map.leading_edge_mm = positive(*settings.tolerance, "--tolerance") * plan.mm_per_unit;
+    map.rest_mm = ratio * map.leading_edge_mm;
+  }
+  if (settings.rest_tolerance) map.rest_mm = positive(*settings.rest_tolerance, "--rest-tolerance") * plan.mm_per_unit;
+  map.transition = settings.transition.value_or(0.0);
+  if (!(map.transition >= 0.0) || map.transition > 1.0)
+    throw DesignError(fmt::format("--transition: {} is not a width in patch parameters, 0 to 1", map.transition));
+  if (settings.tolerance && map.box_count == 0)
+    plan.note = fmt::format("no --leading-edge is given: the whole blade is held to the rest tolerance, {:g} {}",
+                            map.rest_mm / plan.mm_per_unit, plan.units);
+}
+
+void plan_mode(const FitSettings& settings, FitPlan& plan) {
+  plan.mode = settings.mode.value_or("least_squares");
+  if (plan.mode != "least_squares")
+    throw DesignError(fmt::format("--mode {}: this version fits by least_squares only; leave --mode out", plan.mode));
+  const std::string regions = settings.regions.value_or("follow");
+  if (regions != "follow" && regions != "fixed")
+    throw DesignError(fmt::format("--regions {}: give follow or fixed", regions));
+  const std::string edges = settings.edges.value_or("skip");
+  if (edges != "skip" && edges != "use") throw DesignError(fmt::format("--edges {}: give skip or use", edges));
+  plan.localizer.edges = edges == "use" ? EdgePolicy::use : EdgePolicy::skip;
+}
+
+void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan& plan) {
+  const bool inch_design = design.header().design_unit == static_cast<std::uint32_t>(DesignUnit::inch);
+  plan.units = settings.units.value_or(inch_design ? "in" : "mm");
+  if (plan.units != "mm" && plan.units != "in") throw DesignError(fmt::format("--units {}: give mm or in", plan.units));
+  plan.mm_per_unit = plan.units == "in" ? kMmPerInch : 1.0;
+}
+
+}  // namespace
+
+void add_fit_options(CLI::App& command, FitSettings& flags) {
+  const std::string group = "Fit";
+  add(command, "--mode", flags.mode,
+      "least_squares: minimum of the sum of squared distances (the only one in this version)")
+      ->group(group);
+  add(command, "--leading-edge", flags.leading_edge,
+      "[PATCH:]u:0.4:0.6 or v:...: leading-edge region between two isoparameter lines; may be repeated")
+      ->group(group)
+      ->allow_extra_args(false);
+  add(command, "--tolerance", flags.tolerance, "distance allowed at the leading edge, in --units")->group(group);
+  add(command, "--rest-tolerance", flags.rest_tolerance,
+      "distance allowed elsewhere (default: ratio times --tolerance)")
+      ->group(group);
+  add(command, "--ratio", flags.ratio, "rest tolerance / leading-edge tolerance (default 10)")->group(group);
+  add(command, "--transition", flags.transition,
+      "width [patch parameter] over which the tolerance rises outside the region")
+      ->group(group);
+  add(command, "--window", flags.window,
+      "use only points whose foot before the fit has a <= u,v <= b, for example 0.05:0.95")
+      ->group(group);
+  add(command, "--outward", flags.outward, "+, - or auto: side of the surface away from the material (default auto)")
+      ->group(group);
+  add(command, "--probe-radius", flags.probe_radius,
+      "points are centres of a ball of this radius, in --units (default 0)")
+      ->group(group);
+  add(command, "--units", flags.units, "mm or in: of all lengths given and written (default: those of the design file)")
+      ->group(group);
+  add(command, "--regions", flags.regions,
+      "follow (default): a point's region is that of its present foot; fixed: of its foot at the least-squares "
+      "solution. "
+      "In a least-squares fit the two agree")
+      ->group(group);
+  add(command, "--edges", flags.edges, "skip (default) or use points whose foot is on an edge of the design")
+      ->group(group);
+  command
+      .add_flag_callback(
+          "--ignore-approach", [&flags] { flags.ignore_approach = true; }, "do not use the probing directions i,j,k")
+      ->group(group);
+}
+
+FitSettings merged(const FitSettings& flags, const FitSettings& file) {
+  FitSettings out = file;
+  const auto over = [](auto& target, const auto& source) {
+    if (source) target = source;
+  };
+  over(out.mode, flags.mode);
+  over(out.leading_edge, flags.leading_edge);
+  over(out.tolerance, flags.tolerance);
+  over(out.rest_tolerance, flags.rest_tolerance);
+  over(out.ratio, flags.ratio);
+  over(out.transition, flags.transition);
+  over(out.window, flags.window);
+  over(out.outward, flags.outward);
+  over(out.probe_radius, flags.probe_radius);
+  over(out.units, flags.units);
+  over(out.regions, flags.regions);
+  over(out.edges, flags.edges);
+  over(out.ignore_approach, flags.ignore_approach);
+  return out;
+}
+
+OutwardOption outward_of(const FitSettings& settings) { return parse_outward(settings.outward.value_or("auto")); }
+
+FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
+  FitPlan plan;
+  plan_mode(settings, plan);
+  plan_units(settings, design, plan);
+  plan_boxes(settings, design, plan.localizer.tolerance);
+  plan_tolerance(settings, plan);
+  const double radius = settings.probe_radius.value_or(0.0);
+  if (!(radius >= 0.0) || !std::isfinite(radius))
+    throw DesignError(fmt::format("--probe-radius: {} is not a radius; give 0 or more", radius));
+  plan.localizer.probe_radius_mm = radius * plan.mm_per_unit;
+  plan.localizer.use_approach = !settings.ignore_approach.value_or(false);
+  if (settings.window) {
+    ParameterWindow window;
+    take(parse_window(*settings.window, window));
+    plan.localizer.window_low = window.low;
+    plan.localizer.window_high = window.high;
+  }
+  return plan;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,43 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/localizer.hpp"
+#include "tools/fit_options.hpp"
+
+namespace bladefit {
+
+/// Distances before and after the fit over the points of one kind that count in it [mm].
+struct BeforeAfter {
+  std::uint32_t count = 0;
+  double rms_before = 0, rms_after = 0, max_before = 0, max_after = 0;
+};
+
+/// A finished fit and all its points: what result.json and the operator's summary are made from.
+struct FitResult {
+  std::string status;  ///< converged, underdetermined or not_converged
+  FitReport report;
+  std::vector<Verdict> verdicts;  ///< final ones, rising sequence; index in the points file = sequence - 1
+  BeforeAfter all, leading_edge, rest;
+};
+
+/// The batch fit of `points`: all are projected at the start pose, then refined until every foot is proven.
+/// Throws DesignError where fewer than six points count or a point cannot be used; `name` names the points there.
+[[nodiscard]] FitResult fit_points(const DesignImage& design, const FitPlan& plan,
+                                   const std::vector<ProbePoint>& points, const std::string& name);
+
+/// The result of a fit that was made elsewhere: only the distances before it are computed here.
+[[nodiscard]] FitResult result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                                  const FitReport& report, std::vector<Verdict> verdicts);
+
+/// result.json: UTF-8 text with a final newline, lengths in plan.units. Numbers are written so that they read back as
+/// the same bits.
+[[nodiscard]] std::string result_json(const FitResult& result, const FitPlan& plan);
+
+/// Exit code: 1 where a point is out of tolerance, else 0.
+[[nodiscard]] int exit_code_of(const FitResult& result);
+
+/// What the operator wants to know, some lines: points, fit, and the points out of tolerance with cut or weld.
+[[nodiscard]] std::string operator_summary(const FitResult& result, const FitPlan& plan, const DesignImage& design);
+
+}  // namespace bladefit

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/fit_result.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::size_t kListed = 10;
+
+double radius(const Vec3& point) { return std::hypot(point[1], point[2]); }
+
+/// Largest radius about the shaft axis x of the design's control points [mm].
+double tip_radius(const DesignImage& design) {
+  double largest = 0.0;
+  const auto c = design.coefficients();
+  for (std::size_t k = 0; k + 3 < c.size(); k += 4)
+    largest = std::max(largest, std::hypot(c[k + 1], c[k + 2]) / c[k + 3]);
+  return largest;
+}
+
+const char* word(Action action) { return action == Action::cut ? "cut" : "weld"; }
+
+std::string where(const Verdict& v, double tip, const FitPlan& plan) {
+  return fmt::format("{:+.3f} {} at r/R {:.2f}", v.foot.distance / plan.mm_per_unit, plan.units,
+                     radius(v.foot.point) / tip);
+}
+
+std::string region_line(const FitResult& result, Region region, const char* name, double tip, const FitPlan& plan) {
+  std::size_t out = 0;
+  const Verdict* worst = nullptr;
+  for (const Verdict& v : result.verdicts) {
+    if (v.region != region || v.state != PointState::out) continue;
+    ++out;
+    if (worst == nullptr || std::abs(v.foot.distance) > std::abs(worst->foot.distance)) worst = &v;
+  }
+  if (worst == nullptr) return fmt::format("no {} point out\n", name);
+  return fmt::format("{} {} {} out; worst {}, {}\n", out, name, out == 1 ? "point" : "points", where(*worst, tip, plan),
+                     word(worst->action));
+}
+
+std::string worst_list(const FitResult& result, double tip, const FitPlan& plan) {
+  std::vector<const Verdict*> out;
+  for (const Verdict& v : result.verdicts) {
+    if (v.state == PointState::out && v.region == Region::leading_edge) out.push_back(&v);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Verdict* a, const Verdict* b) {
+    return std::abs(a->foot.distance) > std::abs(b->foot.distance);
+  });
+  std::string text;
+  for (std::size_t k = 0; k < std::min(out.size(), kListed); ++k) {
+    const Verdict& v = *out[k];
+    text += fmt::format("  point {:>5}  {:<4}  {}  (patch {}, u {:.4f}, v {:.4f}; tolerance {:.3f} {})\n", v.sequence,
+                        word(v.action), where(v, tip, plan), v.foot.patch, v.foot.u, v.foot.v,
+                        v.tolerance_mm / plan.mm_per_unit, plan.units);
+  }
+  if (out.size() > kListed) text += fmt::format("  and {} more\n", out.size() - kListed);
+  return text;
+}
+
+}  // namespace
+
+std::string operator_summary(const FitResult& result, const FitPlan& plan, const DesignImage& design) {
+  const double unit = plan.mm_per_unit, tip = tip_radius(design);
+  const EulerAngles e = euler_angles(result.report.pose.rotation);
+  const Vec3 t = result.report.pose.translation / unit;
+  std::string text;
+  text += fmt::format("Fit {}: {} of {} points, {} degrees of freedom determined, rms {:.4f} {} (before {:.4f} {})\n",
+                      result.status, result.all.count, result.verdicts.size(), result.report.determined,
+                      result.all.rms_after / unit, plan.units, result.all.rms_before / unit, plan.units);
+  text += fmt::format("Pose: tx {:.5f} ty {:.5f} tz {:.5f} {}; psi {:.7f} theta {:.7f} phi {:.7f} rad\n", t[0], t[1],
+                      t[2], plan.units, e.psi, e.theta, e.phi);
+  if (result.leading_edge.count > 0)
+    text +=
+        fmt::format("Leading edge: {} points, rms {:.4f} {}, largest {:.4f} {}\n", result.leading_edge.count,
+                    result.leading_edge.rms_after / unit, plan.units, result.leading_edge.max_after / unit, plan.units);
+  const std::size_t rejected =
+      static_cast<std::size_t>(std::count_if(result.verdicts.begin(), result.verdicts.end(),
+                                             [](const Verdict& v) { return v.state == PointState::rejected; }));
+  if (rejected > 0)
+    text += fmt::format("{} points do not count: foot on an edge of the design or outside the window\n", rejected);
+  const ToleranceMap& tolerance = plan.localizer.tolerance;
+  if (std::isfinite(tolerance.leading_edge_mm) && tolerance.box_count > 0)
+    text += region_line(result, Region::leading_edge, "leading-edge", tip, plan) + worst_list(result, tip, plan);
+  if (std::isfinite(tolerance.rest_mm)) text += region_line(result, Region::rest, "other", tip, plan);
+  return text;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,109 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/fit/pose.hpp"
+#include "tools/fit_result.hpp"
+
+namespace bladefit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* name_of(FootKind kind) {
+  return kind == FootKind::interior ? "interior" : kind == FootKind::edge ? "edge" : "corner";
+}
+
+const char* name_of(PointState state) {
+  switch (state) {
+    case PointState::pending:
+      return "pending";
+    case PointState::in:
+      return "in";
+    case PointState::out:
+      return "out";
+    case PointState::rejected:
+      return "rejected";
+  }
+  return "";
+}
+
+const char* name_of(Action action) { return action == Action::none ? "none" : action == Action::cut ? "cut" : "weld"; }
+
+Json length_or_null(double mm, double mm_per_unit) {
+  return std::isfinite(mm) ? Json(mm / mm_per_unit) : Json(nullptr);
+}
+
+Json pose_json(const Pose& pose, double mm_per_unit) {
+  Json rotation = Json::array(), translation = Json::array();
+  for (int i = 0; i < 3; ++i) {
+    rotation.push_back({pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2)});
+    translation.push_back(pose.translation[i] / mm_per_unit);
+  }
+  const EulerAngles e = euler_angles(pose.rotation);
+  return {{"rotation", rotation},
+          {"translation", translation},
+          {"euler", {{"psi", e.psi}, {"theta", e.theta}, {"phi", e.phi}}}};
+}
+
+Json covariance_json(const FitReport& report, double mm_per_unit) {
+  if (report.determined < 6 || report.fitted <= 6) return nullptr;
+  Json rows = Json::array();
+  for (int i = 0; i < 6; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 6; ++j)
+      row.push_back(report.covariance(i, j) / ((i < 3 ? 1.0 : mm_per_unit) * (j < 3 ? 1.0 : mm_per_unit)));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json region_json(const BeforeAfter& sums, double tolerance_mm, double mm_per_unit) {
+  return {{"count", sums.count},
+          {"rms_before", sums.rms_before / mm_per_unit},
+          {"rms_after", sums.rms_after / mm_per_unit},
+          {"max_abs_after", sums.max_after / mm_per_unit},
+          {"tolerance", length_or_null(tolerance_mm, mm_per_unit)}};
+}
+
+Json points_json(const std::vector<Verdict>& verdicts, double mm_per_unit) {
+  Json points = Json::array();
+  for (const Verdict& v : verdicts) {
+    points.push_back({{"index", v.sequence - 1},
+                      {"patch", v.foot.patch},
+                      {"u", v.foot.u},
+                      {"v", v.foot.v},
+                      {"kind", name_of(v.foot.kind)},
+                      {"region", v.region == Region::leading_edge ? "leading_edge" : "rest"},
+                      {"distance", v.foot.distance / mm_per_unit},
+                      {"uncertainty", v.uncertainty_mm / mm_per_unit},
+                      {"state", name_of(v.state)},
+                      {"action", name_of(v.action)}});
+  }
+  return points;
+}
+
+}  // namespace
+
+std::string result_json(const FitResult& result, const FitPlan& plan) {
+  const double unit = plan.mm_per_unit;
+  Json json;
+  json["status"] = result.status;
+  json["mode"] = plan.mode;
+  json["units"] = plan.units;
+  json["pose"] = pose_json(result.report.pose, unit);
+  json["covariance"] = covariance_json(result.report, unit);
+  json["summary"] = {{"count", result.all.count},
+                     {"rms_before", result.all.rms_before / unit},
+                     {"rms_after", result.all.rms_after / unit},
+                     {"max_abs_before", result.all.max_before / unit},
+                     {"max_abs_after", result.all.max_after / unit}};
+  const ToleranceMap& tolerance = plan.localizer.tolerance;
+  json["regions"] = {{"leading_edge", region_json(result.leading_edge, tolerance.leading_edge_mm, unit)},
+                     {"rest", region_json(result.rest, tolerance.rest_mm, unit)}};
+  json["tolerance_factor"] = nullptr;
+  json["certificate"] = nullptr;
+  json["points"] = points_json(result.verdicts, unit);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace bladefit
