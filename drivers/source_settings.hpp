@@ -98,6 +98,7 @@ struct ModbusSettings {
   std::chrono::milliseconds connect_timeout{1000};    ///< of one attempt
   std::chrono::milliseconds reconnect_first{50};      ///< first pause before connecting again; it doubles ...
   std::chrono::milliseconds reconnect_longest{1000};  ///< ... up to this
+  std::chrono::milliseconds quiet{100};               ///< RTU: silence kept after a missing or damaged reply
   int timeouts_to_reconnect = 5;  ///< replies missing in a row after which a TCP connection is given up
   int record_tries = 250;         ///< how often a damaged record is read before it counts as lost
   bool echo = false;              ///< RS-485: every byte that is sent is received first

@@ -1,0 +1,47 @@
+#include "drivers/modbus/modbus_link.hpp"
+
+#include <algorithm>
+#include <cerrno>
+
+#include "drivers/modbus/rtu_link.hpp"
+#include "drivers/modbus/tcp_link.hpp"
+
+namespace bladefit {
+
+std::size_t ModbusLink::receive_frame(std::span<std::uint8_t, MODBUS_MAX_ADU_LENGTH> frame, LinkEvent& event) {
+  constexpr std::int64_t kLeastTimeoutUs = 1000;
+  const auto left = std::chrono::duration_cast<std::chrono::microseconds>(deadline_ - Clock::now()).count();
+  const std::int64_t timeout_us = std::max<std::int64_t>(left, kLeastTimeoutUs);
+  modbus_set_response_timeout(context_.get(), static_cast<std::uint32_t>(timeout_us / 1'000'000),
+                              static_cast<std::uint32_t>(timeout_us % 1'000'000));
+  // Without a byte timeout libmodbus takes the response timeout for the whole frame.
+  modbus_set_byte_timeout(context_.get(), 0, 0);
+  const int size = modbus_receive_confirmation(context_.get(), frame.data());
+  if (size >= 0) {
+    event = LinkEvent::done;
+    return static_cast<std::size_t>(size);
+  }
+  const int error = errno;
+  fault_ = modbus_strerror(error);
+  if (error == ETIMEDOUT) {
+    event = LinkEvent::timeout;
+  } else if (error == EMBBADCRC || error == EMBBADDATA) {
+    event = LinkEvent::damaged;
+  } else {
+    event = broken(fault_);
+  }
+  return 0;
+}
+
+LinkEvent ModbusLink::broken(std::string fault) {
+  close();
+  fault_ = std::move(fault);
+  return LinkEvent::broken;
+}
+
+std::unique_ptr<ModbusLink> make_modbus_link(const SourceSettings& settings) {
+  if (settings.kind == SourceKind::modbus_tcp) return std::make_unique<TcpLink>(settings);
+  return std::make_unique<RtuLink>(settings);
+}
+
+}  // namespace bladefit

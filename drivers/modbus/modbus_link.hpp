@@ -1,0 +1,81 @@
+#pragma once
+#include <modbus.h>
+
+#include <chrono>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "drivers/modbus/modbus_frame.hpp"
+#include "drivers/source_settings.hpp"
+
+namespace bladefit {
+
+enum class LinkEvent : std::uint8_t {
+  pending,  ///< not yet; call again
+  done,     ///< as asked
+  timeout,  ///< the deadline of the transaction has passed; the link stays open
+  damaged,  ///< a reply that cannot be used; the link stays open
+  refused,  ///< the device answered with an exception
+  broken,   ///< the link is closed
+};
+
+/// One transaction at a time over one link. A transaction has one absolute deadline, settings.reply_timeout after it
+/// was sent. Nothing here waits longer than it is told to, but for the rest of a reply whose first byte has come.
+class ModbusLink {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  virtual ~ModbusLink() = default;
+
+  /// Checks what can be checked before connecting. Returns a phrase with the mend; empty = no error.
+  [[nodiscard]] virtual std::string prepare() = 0;
+
+  /// Begins to connect.
+  virtual void start_connect() = 0;
+
+  /// Goes on connecting until `until`: pending, done or broken.
+  [[nodiscard]] virtual LinkEvent connect(Clock::time_point until) = 0;
+
+  [[nodiscard]] virtual bool is_open() const = 0;
+
+  /// Sends a request and starts its deadline: done or broken.
+  [[nodiscard]] virtual LinkEvent send(const ModbusRequest& request) = 0;
+
+  /// Waits until `until` for the reply to the request: any event. With done, what was read is in `registers`.
+  [[nodiscard]] virtual LinkEvent receive(std::span<std::uint16_t> registers, Clock::time_point until) = 0;
+
+  virtual void close() = 0;
+
+  /// Before this moment nothing may be sent.
+  [[nodiscard]] Clock::time_point ready_at() const { return ready_at_; }
+
+  /// The newest fault, with the mend.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+
+  /// Something the user should know of an open link; empty = nothing.
+  [[nodiscard]] const std::string& remark() const { return remark_; }
+
+ protected:
+  struct ContextDeleter {
+    void operator()(modbus_t* context) const { modbus_free(context); }
+  };
+
+  /// Lets libmodbus receive one frame until deadline_. Returns its size, or the event in `event`.
+  [[nodiscard]] std::size_t receive_frame(std::span<std::uint8_t, MODBUS_MAX_ADU_LENGTH> frame, LinkEvent& event);
+
+  /// Closes the link because of a fault.
+  LinkEvent broken(std::string fault);
+
+  std::unique_ptr<modbus_t, ContextDeleter> context_;
+  ModbusRequest request_;
+  Clock::time_point deadline_{};
+  Clock::time_point ready_at_{};
+  std::string fault_;
+  std::string remark_;
+};
+
+/// Modbus TCP or RTU, as settings.kind says.
+[[nodiscard]] std::unique_ptr<ModbusLink> make_modbus_link(const SourceSettings& settings);
+
+}  // namespace bladefit

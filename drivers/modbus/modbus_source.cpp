@@ -1,0 +1,288 @@
+#include "drivers/modbus/modbus_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "drivers/host_clock.hpp"
+#include "drivers/modbus/cmm_header.hpp"
+#include "drivers/modbus/number_codec.hpp"
+#include "drivers/source_fault.hpp"
+#include "drivers/source_uri.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr int kHeaderTries = 3;     ///< a refused header may have been damaged on its way
+constexpr int kTimeoutsToLost = 3;  ///< missing replies in a row after which the link counts as lost
+constexpr std::chrono::milliseconds kCloseTime{700};
+
+}  // namespace
+
+ModbusSource::ModbusSource(const SourceSettings& settings)
+    : settings_(settings),
+      name_(source_name(settings)),
+      ring_(settings_.modbus, status_),
+      link_(make_modbus_link(settings)),
+      back_off_(settings.modbus.reconnect_first, settings.modbus.reconnect_longest),
+      registers_(MODBUS_MAX_READ_REGISTERS) {}
+
+ModbusSource::~ModbusSource() = default;
+
+SourceError ModbusSource::open_error(const std::string& what) {
+  link_->close();
+  stage_ = Stage::down;
+  opening_ = false;
+  return {fmt::format("{}: {}", name_, what)};
+}
+
+SourceError ModbusSource::open(std::uint32_t after) {
+  status_ = {};
+  ring_.restart(after);
+  stored_ = after;
+  sent_ = 0;
+  refusal_.clear();
+  header_refusals_ = timeouts_ = 0;
+  if (const std::string fault = check_map(settings_.modbus.map); !fault.empty()) return open_error(fault);
+  if (const std::string fault = link_->prepare(); !fault.empty()) return open_error(fault);
+  opening_ = true;
+  purpose_ = Purpose::none;
+  stage_ = Stage::connecting;
+  link_->start_connect();
+  while (stage_ != Stage::running) {
+    step(Clock::now() + settings_.modbus.reply_timeout);
+    if (stage_ == Stage::down) return open_error(status_.last_fault);
+    if (!refusal_.empty()) return open_error(refusal_);
+    if (timeouts_ >= kHeaderTries) {
+      return open_error(
+          fmt::format("unit {} does not answer; switch it on, or correct unit and the settings of the line",
+                      settings_.modbus.unit));
+    }
+  }
+  opening_ = false;
+  return {};
+}
+
+std::size_t ModbusSource::poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) {
+  const Clock::time_point until = ring_.points().empty() ? Clock::now() + timeout : Clock::now();
+  do {
+    step(until);
+  } while (ring_.points().empty() && Clock::now() < until);
+  return ring_.points().take(points);
+}
+
+void ModbusSource::acknowledge(std::uint32_t sequence) { stored_ = std::max(stored_, sequence); }
+
+/// Goes on with whatever is under way. Returns as soon as something has changed, at `until` at the latest.
+void ModbusSource::step(Clock::time_point until) {
+  if (ring_.stopped()) {
+    std::this_thread::sleep_until(until);
+  } else if (!link_->is_open()) {
+    reconnect(until);
+  } else if (purpose_ != Purpose::none) {
+    finish_transaction(until);
+  } else {
+    begin_transaction(until);
+  }
+}
+
+void ModbusSource::reconnect(Clock::time_point until) {
+  if (stage_ != Stage::connecting) {
+    if (Clock::now() < back_off_.retry_at()) {
+      std::this_thread::sleep_until(std::min(until, back_off_.retry_at()));
+      return;
+    }
+    stage_ = Stage::connecting;
+    link_->start_connect();
+  }
+  const LinkEvent event = link_->connect(until);
+  if (event == LinkEvent::broken) link_lost(link_->fault());
+  if (event != LinkEvent::done) return;
+  if (!opening_) ++status_.reconnects;
+  if (!link_->remark().empty()) status_.last_fault = link_->remark();
+  stage_ = Stage::identify;
+  header_refusals_ = timeouts_ = 0;
+  next_header_ = link_->ready_at();
+}
+
+void ModbusSource::begin_transaction(Clock::time_point until) {
+  const Clock::time_point now = Clock::now();
+  if (now < link_->ready_at()) {
+    std::this_thread::sleep_until(std::min(until, link_->ready_at()));
+    return;
+  }
+  const CmmMap& map = settings_.modbus.map;
+  if (stage_ == Stage::announce || (stage_ == Stage::running && stored_ != sent_)) {
+    sending_ = stored_;
+    if (map.acknowledge.present) return begin(Purpose::acknowledge, write_request(map.acknowledge, sending_));
+    sent_ = sending_;
+    if (stage_ == Stage::announce) stage_ = Stage::command;
+  }
+  if (stage_ == Stage::command) {
+    if (next_command_ != 0) return begin(Purpose::command, write_request(map.command, next_command_));
+    stage_ = Stage::running;
+  }
+  const bool header_due = now >= next_header_;
+  batch_ = stage_ == Stage::running ? ring_.next_batch() : RecordBatch{};
+  if (batch_.count > 0 && !header_due) {
+    begin(Purpose::records, read_request(batch_.address, static_cast<std::uint16_t>(batch_.count * map.record_size)));
+  } else if (header_due) {
+    const RegisterBlock block = header_block(map);
+    begin(Purpose::header, read_request(block.first, block.count));
+  } else {
+    std::this_thread::sleep_until(std::min(until, next_header_));
+  }
+}
+
+void ModbusSource::begin(Purpose purpose, const ModbusRequest& request) {
+  purpose_ = purpose;
+  if (link_->send(request) == LinkEvent::broken) link_lost(link_->fault());
+}
+
+void ModbusSource::finish_transaction(Clock::time_point until) {
+  const LinkEvent event = link_->receive(registers_, until);
+  if (event == LinkEvent::pending) return;
+  if (event == LinkEvent::done) {
+    transaction_done();
+  } else {
+    transaction_failed(event);
+  }
+}
+
+void ModbusSource::transaction_done() {
+  timeouts_ = 0;
+  const Purpose purpose = std::exchange(purpose_, Purpose::none);
+  // A device that was silent for long may have been switched off and on: it is greeted like a new one.
+  if (status_.link == LinkState::lost && stage_ == Stage::running) stage_ = Stage::identify;
+  switch (purpose) {
+    case Purpose::none:
+      break;
+    case Purpose::header:
+      header_read();
+      break;
+    case Purpose::records:
+      records_read();
+      break;
+    case Purpose::acknowledge:
+      sent_ = sending_;
+      if (stage_ == Stage::announce) stage_ = Stage::command;
+      break;
+    case Purpose::command:
+      if (stage_ == Stage::command) stage_ = Stage::running;
+      next_header_ = Clock::now() + settings_.modbus.poll_period;
+      break;
+  }
+}
+
+void ModbusSource::header_read() {
+  next_header_ = Clock::now() + settings_.modbus.poll_period;
+  const CmmHeader header = decode_header(registers_, settings_.modbus.map);
+  const std::string refusal = check_header(header, settings_.modbus.map);
+  if (refusal.empty()) {
+    header_refusals_ = 0;
+    note_good(status_);
+    if (stage_ == Stage::identify) identify(header);
+    ring_.observe(header);
+    return;
+  }
+  ++status_.damaged;
+  note_fault(status_, refusal);
+  if (++header_refusals_ >= kHeaderTries && opening_) refusal_ = refusal;
+}
+
+/// The first good header after the link was made.
+void ModbusSource::identify(const CmmHeader& header) {
+  next_command_ = settings_.modbus.map.command.present ? command_for(header) : std::uint16_t{0};
+  status_.link = LinkState::up;
+  stage_ = Stage::announce;
+  back_off_.succeeded();
+}
+
+/// A device that goes on by itself is left alone, so that a short loss of the link does not make it probe anything
+/// again.
+std::uint16_t ModbusSource::command_for(const CmmHeader& header) const {
+  const CmmMap& map = settings_.modbus.map;
+  if (ring_.next() == 1) return opening_ || header.newest == 0 ? map.command_start : std::uint16_t{0};
+  const bool behind = header.newest + 1 < ring_.next();
+  const bool active_known = map.status.present && map.probing_mask != 0;
+  const bool active = (header.status & (map.probing_mask | map.finished_mask)) != 0;
+  return behind || (active_known && !active) ? map.command_restart : std::uint16_t{0};
+}
+
+void ModbusSource::records_read() {
+  const std::size_t size = std::size_t{batch_.count} * settings_.modbus.map.record_size;
+  const bool good = ring_.accept(batch_, std::span(registers_).first(size), host_time_us());
+  // A bad record is looked at again after the header has told whether it still stands in the ring.
+  if (!good) next_header_ = std::min(next_header_, Clock::now());
+}
+
+void ModbusSource::transaction_failed(LinkEvent event) {
+  if (event == LinkEvent::broken) return link_lost(link_->fault());
+  purpose_ = Purpose::none;
+  note_fault(status_, link_->fault());
+  if (event == LinkEvent::damaged) ++status_.damaged;
+  if (event == LinkEvent::refused) {
+    next_header_ = Clock::now() + settings_.modbus.poll_period;
+    if (opening_) refusal_ = link_->fault() + "; correct the addresses in the device file";
+  }
+  if (event != LinkEvent::timeout) return;
+  ++timeouts_;
+  ++status_.resends;
+  if (timeouts_ >= kTimeoutsToLost) status_.link = LinkState::lost;
+  // A serial port stays open for a silent device. A TCP connection may be dead without telling.
+  if (settings_.kind == SourceKind::modbus_tcp && timeouts_ >= settings_.modbus.timeouts_to_reconnect) {
+    link_->close();
+    link_lost(link_->fault());
+  }
+}
+
+void ModbusSource::link_lost(const std::string& fault) {
+  purpose_ = Purpose::none;
+  stage_ = Stage::down;
+  status_.link = LinkState::lost;
+  note_fault(status_, fault);
+  back_off_.failed(Clock::now());
+}
+
+ModbusRequest ModbusSource::read_request(std::uint16_t address, std::uint16_t count) const {
+  ModbusRequest request;
+  const bool input = settings_.modbus.map.table == RegisterTable::input;
+  request.function = input ? MODBUS_FC_READ_INPUT_REGISTERS : MODBUS_FC_READ_HOLDING_REGISTERS;
+  request.address = address;
+  request.count = count;
+  return request;
+}
+
+ModbusRequest ModbusSource::write_request(const NumberField& field, std::uint32_t value) const {
+  ModbusRequest request;
+  request.count = register_count(field.type);
+  request.function = request.count == 1 ? MODBUS_FC_WRITE_SINGLE_REGISTER : MODBUS_FC_WRITE_MULTIPLE_REGISTERS;
+  request.address = field.address;
+  encode_whole(value, field.type, settings_.modbus.map.word_order, request.values);
+  return request;
+}
+
+/// Writes once and waits for the reply until `until`.
+bool ModbusSource::write_now(const NumberField& field, std::uint32_t value, Clock::time_point until) {
+  if (!field.present || !link_->is_open()) return false;
+  std::this_thread::sleep_until(std::min(until, link_->ready_at()));
+  if (link_->send(write_request(field, value)) != LinkEvent::done) return false;
+  return link_->receive(registers_, until) == LinkEvent::done;
+}
+
+void ModbusSource::close() {
+  const Clock::time_point until = Clock::now() + kCloseTime;
+  if (link_->is_open() && purpose_ != Purpose::none) finish_transaction(until);
+  const CmmMap& map = settings_.modbus.map;
+  const bool talks = link_->is_open() && status_.link == LinkState::up;
+  if (talks && stored_ != sent_ && write_now(map.acknowledge, stored_, until)) sent_ = stored_;
+  if (talks && !write_now(map.command, map.command_stop, until) && map.command.present) {
+    note_fault(status_, "the device did not confirm the stop; stop it at its own screen");
+  }
+  link_->close();
+  stage_ = Stage::down;
+  purpose_ = Purpose::none;
+}
+
+}  // namespace bladefit
