@@ -47,6 +47,7 @@ std::uint64_t config_digest(const LocalizerConfig& config, std::uint32_t path_re
   digest.add(static_cast<std::uint8_t>(config.use_approach));
   digest.add(static_cast<std::uint8_t>(config.edges));
   digest.add(config.noise_floor_mm);
+  digest.add(config.determined_mm);
   for (const double entry : config.start.rotation.reshaped()) digest.add(entry);
   for (const double entry : config.start.translation) digest.add(entry);
   add_tolerance(config.tolerance, digest);

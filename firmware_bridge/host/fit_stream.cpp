@@ -26,6 +26,9 @@ bool FitStream::push(const ProbePoint& point, Verdict& verdict) {
 void FitStream::end_path() {
   if (!path_ended_) return;
   path_ended_ = false;
+  // A refinement starts its sweep over the stored points anew: cut short path after path it would never get to the
+  // later ones. With more points than the budget the sweeps of push() do the work.
+  if (localizer_.fit().points > path_refine_points_) return;
   // Whatever is left to do is done by later pushes and by settle().
   [[maybe_unused]] const Status status = localizer_.refine(path_refine_points_);
 }

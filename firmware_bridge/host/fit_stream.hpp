@@ -11,7 +11,8 @@ namespace bladefit {
 /// One thread owns it. No call allocates, locks or throws.
 class FitStream {
  public:
-  /// `path_refine_points`: how many stored points are projected anew when a path has ended.
+  /// `path_refine_points`: how many stored points are projected anew at most when a path has ended; none are when there
+  /// are more points than that.
   FitStream(Localizer& localizer, std::uint32_t path_refine_points)
       : localizer_(localizer), path_refine_points_(path_refine_points) {}
 

@@ -25,8 +25,7 @@ void FitWorker::run() {
     judge(input.event);
     if (++events_since_figures_ >= kEventsBetweenFigures) publish_figures();
   }
-  stream_.settle();
-  publish_revisions();
+  settle();
   publish_figures();
   shared_.fit_done.store(true);
   shared_.publication_wakeup.signal();
@@ -38,10 +37,11 @@ void FitWorker::judge(const StreamEvent& event) {
       judge_point(event.point);
       break;
     case EventKind::finished:
-      stream_.settle();
+      settle();
       break;
     case EventKind::reset:
       stream_.reset();
+      stored_sequences_.clear();
       publish({true, {}});
       break;
   }
@@ -54,6 +54,8 @@ void FitWorker::judge_point(const ProbePoint& point) {
   const bool judged = stream_.push(point, verdict);
   latency_.add(std::chrono::nanoseconds(std::chrono::steady_clock::now() - before).count());
   if (!judged) return;
+  const bool stored = verdict.state != PointState::rejected && stored_sequences_.size() < stored_sequences_.capacity();
+  if (stored) stored_sequences_.push_back(verdict.sequence);
   publish({false, verdict});
   shared_.publication_wakeup.signal();
   stream_.end_path();
@@ -74,6 +76,18 @@ void FitWorker::publish_revisions() {
     any = true;
   }
   if (any) shared_.publication_wakeup.signal();
+}
+
+// A revision comes out when the state or the action changes. Now that the pose has come to rest the distances are told
+// anew as well.
+void FitWorker::settle() {
+  stream_.settle();
+  publish_revisions();
+  Verdict verdict;
+  for (const std::uint32_t sequence : stored_sequences_) {
+    if (stream_.localizer().verdict_of(sequence, verdict) == Status::ok) publish({false, verdict});
+  }
+  shared_.publication_wakeup.signal();
 }
 
 void FitWorker::publish_figures() {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "firmware_bridge/host/fit_stream.hpp"
 #include "firmware_bridge/host/host_shared.hpp"
@@ -11,8 +12,11 @@ namespace bladefit {
 /// waits only when there is no point, or when the publication thread is thousands of verdicts behind.
 class FitWorker {
  public:
-  FitWorker(Localizer& localizer, std::uint32_t path_refine_points, HostShared& shared)
-      : stream_(localizer, path_refine_points), shared_(shared) {}
+  /// `capacity`: points that keep a place in the localizer.
+  FitWorker(Localizer& localizer, std::uint32_t capacity, std::uint32_t path_refine_points, HostShared& shared)
+      : stream_(localizer, path_refine_points), shared_(shared) {
+    stored_sequences_.reserve(capacity);
+  }
 
   /// Runs until the end of the stream; then the fit has settled and HostShared::fit_done is set.
   void run();
@@ -22,11 +26,13 @@ class FitWorker {
   void judge_point(const ProbePoint& point);
   void publish(const FitOutput& output);
   void publish_revisions();
+  void settle();
   void publish_figures();
 
   FitStream stream_;
   HostShared& shared_;
   LatencyHistogram latency_;
+  std::vector<std::uint32_t> stored_sequences_;  // never grows beyond what was reserved
   std::uint32_t events_since_figures_ = 0;
 };
 

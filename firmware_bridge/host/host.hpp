@@ -16,7 +16,7 @@ struct HostSettings {
   std::string session_directory;  ///< made when it is missing; a session in it is resumed
   PanelServerSettings panel;
   /// Stored points projected anew when a path ends: bounds how long that makes the next point wait.
-  std::uint32_t path_refine_points = 1024;
+  std::uint32_t path_refine_points = 2048;
   bool end_when_finished = false;     ///< end when the device says that its program is finished
   std::chrono::milliseconds idle{0};  ///< end when no new point came for so long; 0 = never
 };

@@ -1,0 +1,161 @@
+#include "firmware_bridge/bladefit.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <new>
+#include <span>
+
+#include "core/localizer.hpp"
+#include "firmware_bridge/abi_conversion.hpp"
+
+/// Stands at the start of the caller's memory; the localizer follows.
+struct bladefit_handle {
+  std::uint64_t mark;
+  bladefit::Localizer* localizer;
+};
+
+namespace {
+
+using bladefit::DesignImage;
+using bladefit::Localizer;
+using bladefit::LocalizerConfig;
+using bladefit::Status;
+using bladefit::Verdict;
+
+/// Marks memory that bladefit_init() has made a fit in.
+constexpr std::uint64_t kHandleMark = 0x626C616465666974ULL;
+constexpr std::size_t kHeadSize = BLADEFIT_MEMORY_ALIGNMENT;
+static_assert(sizeof(bladefit_handle) <= kHeadSize);
+
+bladefit_status to_abi(Status status) { return static_cast<bladefit_status>(status); }
+
+bladefit_status check_pointer(const void* pointer, std::size_t alignment) {
+  if (pointer == nullptr) return BLADEFIT_NULL_ARGUMENT;
+  return reinterpret_cast<std::uintptr_t>(pointer) % alignment == 0 ? BLADEFIT_OK : BLADEFIT_MISALIGNED;
+}
+
+template <typename Struct>
+bladefit_status check_struct(const Struct* pointer) {
+  if (const bladefit_status status = check_pointer(pointer, alignof(Struct)); status != BLADEFIT_OK) return status;
+  return pointer->struct_size == sizeof(Struct) ? BLADEFIT_OK : BLADEFIT_BAD_SIZE;
+}
+
+bladefit_status check_handle(const bladefit_handle* handle) {
+  const bladefit_status status = check_pointer(handle, BLADEFIT_MEMORY_ALIGNMENT);
+  if (status != BLADEFIT_OK) return status;
+  return handle->mark == kHandleMark ? BLADEFIT_OK : BLADEFIT_BAD_HANDLE;
+}
+
+template <typename Struct>
+bladefit_status check_call(const bladefit_handle* handle, const Struct* structure) {
+  const bladefit_status status = check_handle(handle);
+  return status != BLADEFIT_OK ? status : check_struct(structure);
+}
+
+/// Checks the configuration and the design, each on its own and against each other.
+bladefit_status prepare(const bladefit_config* config, const void* design, std::size_t design_size,
+                        LocalizerConfig& translated, DesignImage& image) {
+  if (const bladefit_status status = check_struct(config); status != BLADEFIT_OK) return status;
+  if (const bladefit_status status = bladefit::translate_config(*config, translated); status != BLADEFIT_OK) {
+    return status;
+  }
+  if (design == nullptr) return BLADEFIT_NULL_ARGUMENT;
+  const std::span bytes(static_cast<const std::byte*>(design), design_size);
+  if (const Status status = DesignImage::open(bytes, image); status != Status::ok) return to_abi(status);
+  const auto boxes = std::span(config->boxes).first(config->box_count);
+  const bool patches_exist =
+      std::ranges::all_of(boxes, [&](const bladefit_box& box) { return box.patch < image.patches().size(); });
+  return patches_exist ? BLADEFIT_OK : BLADEFIT_OUT_OF_RANGE;
+}
+
+}  // namespace
+
+uint32_t bladefit_abi_version(void) { return BLADEFIT_ABI_VERSION; }
+
+const char* bladefit_status_text(bladefit_status status) {
+  switch (status) {
+    case BLADEFIT_BAD_SIZE:
+      return "struct_size is not that of this version of the struct";
+    case BLADEFIT_BAD_HANDLE:
+      return "the handle does not come from a successful bladefit_init";
+    default:
+      return bladefit::status_text(static_cast<Status>(status));
+  }
+}
+
+size_t bladefit_memory_required(const bladefit_config* config, const void* design, size_t design_size) {
+  LocalizerConfig translated;
+  DesignImage image;
+  if (prepare(config, design, design_size, translated, image) != BLADEFIT_OK) return 0;
+  return kHeadSize + Localizer::memory_required(translated);
+}
+
+bladefit_status bladefit_init(void* memory, size_t memory_size, const void* design, size_t design_size,
+                              const bladefit_config* config, bladefit_handle** handle) {
+  if (const bladefit_status status = check_pointer(memory, BLADEFIT_MEMORY_ALIGNMENT); status != BLADEFIT_OK) {
+    return status;
+  }
+  if (const bladefit_status status = check_pointer(handle, alignof(bladefit_handle*)); status != BLADEFIT_OK) {
+    return status;
+  }
+  LocalizerConfig translated;
+  DesignImage image;
+  if (const bladefit_status status = prepare(config, design, design_size, translated, image); status != BLADEFIT_OK) {
+    return status;
+  }
+  if (memory_size < kHeadSize + Localizer::memory_required(translated)) return BLADEFIT_NOT_ENOUGH_MEMORY;
+  const std::span block(static_cast<std::byte*>(memory), memory_size);
+  Localizer* localizer = nullptr;
+  const Status status = Localizer::create(block.subspan(kHeadSize), image, translated, localizer);
+  if (status != Status::ok) return to_abi(status);
+  *handle = new (memory) bladefit_handle{kHandleMark, localizer};
+  return BLADEFIT_OK;
+}
+
+bladefit_status bladefit_push(bladefit_handle* handle, const bladefit_point* point, bladefit_verdict* verdict) {
+  if (const bladefit_status status = check_call(handle, point); status != BLADEFIT_OK) return status;
+  if (const bladefit_status status = check_struct(verdict); status != BLADEFIT_OK) return status;
+  bladefit::ProbePoint translated;
+  if (const bladefit_status status = bladefit::translate_point(*point, translated); status != BLADEFIT_OK) {
+    return status;
+  }
+  Verdict result;
+  const Status status = handle->localizer->push(translated, result);
+  if (succeeded(status) && status != Status::duplicate) *verdict = bladefit::translate_verdict(result);
+  return to_abi(status);
+}
+
+bladefit_status bladefit_next_revision(bladefit_handle* handle, bladefit_verdict* verdict) {
+  if (const bladefit_status status = check_call(handle, verdict); status != BLADEFIT_OK) return status;
+  Verdict revised;
+  if (!handle->localizer->next_revision(revised)) return BLADEFIT_NOT_FOUND;
+  *verdict = bladefit::translate_verdict(revised);
+  return BLADEFIT_OK;
+}
+
+bladefit_status bladefit_refine(bladefit_handle* handle, uint32_t max_points) {
+  const bladefit_status status = check_handle(handle);
+  return status != BLADEFIT_OK ? status : to_abi(handle->localizer->refine(max_points));
+}
+
+bladefit_status bladefit_fit(const bladefit_handle* handle, bladefit_fit_report* report) {
+  if (const bladefit_status status = check_call(handle, report); status != BLADEFIT_OK) return status;
+  *report = bladefit::translate_report(handle->localizer->fit());
+  return BLADEFIT_OK;
+}
+
+bladefit_status bladefit_verdict_of(const bladefit_handle* handle, uint32_t sequence, bladefit_verdict* verdict) {
+  if (const bladefit_status status = check_call(handle, verdict); status != BLADEFIT_OK) return status;
+  Verdict found;
+  if (const Status status = handle->localizer->verdict_of(sequence, found); status != Status::ok) {
+    return to_abi(status);
+  }
+  *verdict = bladefit::translate_verdict(found);
+  return BLADEFIT_OK;
+}
+
+bladefit_status bladefit_reset(bladefit_handle* handle) {
+  const bladefit_status status = check_handle(handle);
+  if (status == BLADEFIT_OK) handle->localizer->reset();
+  return status;
+}

@@ -1,0 +1,218 @@
+/* bladefit C interface: fits probed points of a propeller blade to its design, one point at a time.
+ *
+ * C99 and C++. No call allocates, locks, waits, does input or output, throws, or loops without a bound; everything
+ * lives in one block of memory that the caller owns.
+ *
+ *   bladefit_config config = BLADEFIT_CONFIG_DEFAULTS;
+ *   size_t size = bladefit_memory_required(&config, design, design_size);
+ *   bladefit_init(memory, size, design, design_size, &config, &handle);
+ *   for each point: bladefit_push(handle, &point, &verdict);
+ *                   while (bladefit_next_revision(handle, &verdict) == BLADEFIT_OK) ...
+ *   bladefit_refine(handle, budget) when a path of the probe ends, until BLADEFIT_OK when the last point is in.
+ *
+ * Units: mm and rad. Frames: points are in the machine's coordinates, feet in those of the design.
+ *
+ * Threads: a handle belongs to one thread at a time; two handles may be used by two threads at once, also on the same
+ * design. States: a handle exists from a bladefit_init() that returned BLADEFIT_OK until its memory is used for
+ * something else; there is nothing to close.
+ *
+ * Arguments: every pointer is checked for null and for the alignment of its type, every struct_size and every number
+ * before anything is done. A negative status means that nothing has changed, the handle and all outputs included. */
+#ifndef BLADEFIT_FIRMWARE_BRIDGE_BLADEFIT_H
+#define BLADEFIT_FIRMWARE_BRIDGE_BLADEFIT_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Changes when a struct or the meaning of a call changes. Compare with bladefit_abi_version(). */
+#define BLADEFIT_ABI_VERSION 1u
+
+/* Alignment of the memory given to bladefit_init() [bytes]. */
+#define BLADEFIT_MEMORY_ALIGNMENT 64u
+
+/* Most leading-edge boxes. */
+#define BLADEFIT_MAX_BOXES 32u
+
+/* Most points that can keep a place. */
+#define BLADEFIT_MAX_CAPACITY 16777216u
+
+/* Outcome of a call: 0 success, positive success with a qualification, negative the reason why nothing was done. */
+typedef int32_t bladefit_status;
+enum {
+  BLADEFIT_OK = 0,
+  BLADEFIT_UNDERDETERMINED = 1, /* fewer than six degrees of freedom follow from the points so far */
+  BLADEFIT_MORE_WORK = 2,       /* the budget of bladefit_refine() is spent; call again to go on */
+  BLADEFIT_MEMORY_FULL = 3,     /* judged and counted, but the point will not be revisited */
+  BLADEFIT_DUPLICATE = 4,       /* sequence not above the last one; nothing has changed, no verdict was written */
+  BLADEFIT_ITERATION_CAP = 5,   /* the best answer so far, not a converged one */
+  BLADEFIT_NULL_ARGUMENT = -1,
+  BLADEFIT_NOT_ENOUGH_MEMORY = -2,
+  BLADEFIT_MISALIGNED = -3,
+  BLADEFIT_NOT_FINITE = -4,   /* a number is NaN or infinite where it must not be */
+  BLADEFIT_OUT_OF_RANGE = -5, /* a number is outside what its field allows */
+  BLADEFIT_NOT_FOUND = -6,    /* no such point, or no revision waits */
+  BLADEFIT_BAD_SIZE = -7,     /* struct_size is not that of this version of the struct */
+  BLADEFIT_BAD_HANDLE = -8,   /* the handle does not come from a successful bladefit_init() */
+  BLADEFIT_BAD_MAGIC = -20,   /* the design is not a design image */
+  BLADEFIT_BAD_VERSION = -21, /* the design image is of another format version */
+  BLADEFIT_BAD_LENGTH = -22,  /* the design image is shorter or longer than it says */
+  BLADEFIT_BAD_CRC = -23,     /* the design image is damaged */
+  BLADEFIT_BAD_CONTENT = -24  /* the design image contradicts itself */
+};
+
+enum { BLADEFIT_EDGES_SKIP = 0, BLADEFIT_EDGES_USE = 1 };                                /* bladefit_config.edges */
+enum { BLADEFIT_INTERIOR = 0, BLADEFIT_EDGE = 1, BLADEFIT_CORNER = 2 };                  /* kind */
+enum { BLADEFIT_REST = 0, BLADEFIT_LEADING_EDGE = 1 };                                   /* region */
+enum { BLADEFIT_PENDING = 0, BLADEFIT_IN = 1, BLADEFIT_OUT = 2, BLADEFIT_REJECTED = 3 }; /* state */
+enum { BLADEFIT_NO_ACTION = 0, BLADEFIT_CUT = 1, BLADEFIT_WELD = 2 };                    /* action */
+enum {
+  BLADEFIT_FIT_UNDERDETERMINED = 0,
+  BLADEFIT_FIT_TRACKING = 1,
+  BLADEFIT_FIT_CONVERGED = 2,
+  BLADEFIT_FIT_INFEASIBLE = 3
+}; /* bladefit_fit_report.status */
+
+/* Part of a patch between isoparameter lines, limits included, in parameters normalised to 0..1. */
+typedef struct bladefit_box {
+  double u_min, u_max, v_min, v_max; /* min <= max */
+  uint32_t patch;                    /* from 0, in the order of the design file */
+  uint32_t reserved;                 /* 0 */
+} bladefit_box;
+
+typedef struct bladefit_config {
+  uint32_t struct_size;             /* sizeof(bladefit_config) */
+  uint32_t capacity;                /* points that keep a place, 6..BLADEFIT_MAX_CAPACITY */
+  uint32_t refresh_per_push;        /* stored points projected anew in each push, 2..64 */
+  uint32_t use_approach;            /* 1: approach vectors choose the side of the blade; 0: they are ignored */
+  uint32_t edges;                   /* BLADEFIT_EDGES_SKIP or _USE: whether feet on edges and corners count */
+  uint32_t box_count;               /* leading-edge boxes in use, 0..BLADEFIT_MAX_BOXES */
+  double probe_radius_mm;           /* >= 0; points are centres of a ball of this radius */
+  double noise_floor_mm;            /* > 0; least standard deviation assumed of a distance */
+  double determined_mm;             /* >= 0; largest standard uncertainty, at the design's half diagonal, of a direction
+                                       that counts as determined; 0 = a thousandth of the half diagonal */
+  double leading_edge_tolerance_mm; /* > 0; INFINITY = not judged */
+  double rest_tolerance_mm;         /* > 0; INFINITY = not judged */
+  double transition;                /* >= 0; width in parameter units over which the tolerance rises outside a box */
+  double start_rotation[9];         /* row by row, orthogonal to 1e-9: where the fit starts, machine -> design */
+  double start_translation[3];      /* [mm] */
+  bladefit_box boxes[BLADEFIT_MAX_BOXES]; /* the leading-edge region is the union of the first box_count */
+} bladefit_config;
+
+/* A config to start from: 65536 points, nothing judged, start pose = identity. */
+#define BLADEFIT_CONFIG_DEFAULTS                                                                                     \
+  {                                                                                                                  \
+    (uint32_t)sizeof(bladefit_config), 65536u, 8u, 1u, BLADEFIT_EDGES_SKIP, 0u, 0.0, 0.005, 0.0, INFINITY, INFINITY, \
+        0.0, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, {                                       \
+      { 0.0, 0.0, 0.0, 0.0, 0u, 0u }                                                                                 \
+    }                                                                                                                \
+  }
+
+/* One touch of the probe, in the machine's coordinates. */
+typedef struct bladefit_point {
+  uint32_t struct_size; /* sizeof(bladefit_point) */
+  uint32_t sequence;    /* >= 1, rising */
+  uint32_t path;        /* scan line, 0..65535; 0 = unknown */
+  uint32_t reserved;    /* 0 */
+  double position[3];   /* [mm] */
+  double approach[3];   /* unit vector from the probe to the material; all 0 = unknown */
+} bladefit_point;
+
+typedef struct bladefit_verdict {
+  uint32_t struct_size; /* sizeof(bladefit_verdict), set by the caller */
+  uint32_t sequence;
+  uint32_t patch;
+  uint32_t kind;
+  uint32_t region;
+  uint32_t state;
+  uint32_t action;       /* where the state is BLADEFIT_OUT */
+  uint32_t fit_revision; /* at which the point was judged */
+  double u, v;           /* 0..1 */
+  double foot[3];        /* nearest point of the design [mm, design coordinates] */
+  double normal[3];      /* outward unit normal there */
+  double distance_mm;    /* > 0 excess material, < 0 missing material, less the probe radius */
+  double tolerance_mm;   /* INFINITY = not judged */
+  double uncertainty_mm; /* standard uncertainty of the distance that comes from the pose */
+} bladefit_verdict;
+
+typedef struct bladefit_region_report {
+  uint32_t count;          /* points that count in the fit */
+  uint32_t judged_out;     /* points whose state is out */
+  uint32_t worst_sequence; /* 0 = no point yet */
+  uint32_t reserved;
+  double rms_mm;
+  double worst_mm; /* distance of largest magnitude, signed */
+} bladefit_region_report;
+
+typedef struct bladefit_fit_report {
+  uint32_t struct_size; /* sizeof(bladefit_fit_report), set by the caller */
+  uint32_t status;      /* BLADEFIT_FIT_... */
+  uint32_t determined;  /* degrees of freedom, 0..6 */
+  uint32_t points;      /* accepted so far */
+  uint32_t fitted;      /* of these, how many count in the fit */
+  uint32_t rejected;
+  uint32_t revision;    /* +1 whenever the pose moves */
+  uint32_t memory_full; /* 0 or 1 */
+  double rotation[9];   /* row by row; r = rotation * R + translation (machine -> design) */
+  double translation[3];
+  double psi, theta, phi; /* rotation = Rx(psi) Ry(theta) Rz(phi) */
+  double covariance[36];  /* of (w, dt) in C' = exp([w]x) C, t' = t + dt; 0 unless all six are determined */
+  double rms_mm;
+  double sigma_mm; /* sqrt(sum d^2 / (fitted - 6)); 0 below 7 points */
+  bladefit_region_report leading_edge, rest;
+} bladefit_fit_report;
+
+/* A fit in the caller's memory. */
+typedef struct bladefit_handle bladefit_handle;
+
+/* Any thread, any time. BLADEFIT_ABI_VERSION of the library. */
+uint32_t bladefit_abi_version(void);
+
+/* Any thread, any time. One English phrase for a status, never null; it lives for ever. */
+const char* bladefit_status_text(bladefit_status status);
+
+/* Any thread, any time. Bytes that bladefit_init() needs for this configuration and design; 0 when either of them is
+ * not valid: bladefit_init() with the same arguments then says why. Cost: linear in design_size. */
+size_t bladefit_memory_required(const bladefit_config* config, const void* design, size_t design_size);
+
+/* Makes a fit in `memory` and writes its handle. `design` is a design image (.bfd), 8-byte aligned; it is used in place
+ * and must stay as it is while the handle is used. `memory` (BLADEFIT_MEMORY_ALIGNMENT) must not hold a fit that
+ * another thread is using. Cost: linear in memory_size and design_size. Returns OK, NULL_ARGUMENT, MISALIGNED,
+ * BAD_SIZE, NOT_FINITE, OUT_OF_RANGE, NOT_ENOUGH_MEMORY, BAD_MAGIC, BAD_VERSION, BAD_LENGTH, BAD_CRC or BAD_CONTENT. */
+bladefit_status bladefit_init(void* memory, size_t memory_size, const void* design, size_t design_size,
+                              const bladefit_config* config, bladefit_handle** handle);
+
+/* The handle's thread. Projects the point, adds it, moves the pose and judges; bounded work, whatever came before.
+ * Returns OK, UNDERDETERMINED, MEMORY_FULL or DUPLICATE (no verdict then); NULL_ARGUMENT, MISALIGNED, BAD_SIZE,
+ * BAD_HANDLE, NOT_FINITE or OUT_OF_RANGE. */
+bladefit_status bladefit_push(bladefit_handle* handle, const bladefit_point* point, bladefit_verdict* verdict);
+
+/* The handle's thread. Takes the next verdict that a later fit has changed. Returns OK, NOT_FOUND (none waits),
+ * NULL_ARGUMENT, MISALIGNED, BAD_SIZE or BAD_HANDLE. */
+bladefit_status bladefit_next_revision(bladefit_handle* handle, bladefit_verdict* verdict);
+
+/* The handle's thread. Projects up to max_points stored points anew and moves the pose. Returns OK (the fit has
+ * converged, and every foot was checked), UNDERDETERMINED (converged in the determined directions), MORE_WORK,
+ * ITERATION_CAP; NULL_ARGUMENT, MISALIGNED or BAD_HANDLE. */
+bladefit_status bladefit_refine(bladefit_handle* handle, uint32_t max_points);
+
+/* The handle's thread. Returns OK, NULL_ARGUMENT, MISALIGNED, BAD_SIZE or BAD_HANDLE. */
+bladefit_status bladefit_fit(const bladefit_handle* handle, bladefit_fit_report* report);
+
+/* The handle's thread. The present verdict of a point. Returns OK, NOT_FOUND, NULL_ARGUMENT, MISALIGNED, BAD_SIZE or
+ * BAD_HANDLE. */
+bladefit_status bladefit_verdict_of(const bladefit_handle* handle, uint32_t sequence, bladefit_verdict* verdict);
+
+/* The handle's thread. Forgets all points and goes back to the start pose. Returns OK, NULL_ARGUMENT, MISALIGNED or
+ * BAD_HANDLE. */
+bladefit_status bladefit_reset(bladefit_handle* handle);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
