@@ -1,8 +1,13 @@
 #include "tools/simulate_command.hpp"
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <memory>
 #include <string>
 
+#include "core/geometry/design_image.hpp"
+#include "tools/design/design_file.hpp"
 #include "tools/simulate/simulator.hpp"
 
 namespace bladefit {
@@ -64,6 +69,31 @@ SimulatorTransport transport_of(const std::string& name) {
   return SimulatorTransport::modbus_tcp;
 }
 
+/// Millimetres in a unit of the points file. Throws DesignError for a design that cannot be read.
+double mm_per_unit_of(const SimulateFlags& flags) {
+  if (flags.units == "in") return kMmPerInch;
+  if (flags.units == "mm" || flags.design.empty()) return 1;
+  // The side of the material does not matter here, so that a design that does not tell it is good enough.
+  const LoadedDesign design = load_design(flags.design, OutwardOption::plus);
+  DesignImage image;
+  const Status status = DesignImage::open(design.image, image);
+  if (!succeeded(status)) {
+    throw DesignError(fmt::format("{}: {}; compile the design again", flags.design, status_text(status)));
+  }
+  return image.header().design_unit == static_cast<std::uint32_t>(DesignUnit::inch) ? kMmPerInch : 1;
+}
+
+int serve_points(SimulateFlags& flags) {
+  try {
+    flags.settings.mm_per_unit = mm_per_unit_of(flags);
+  } catch (const DesignError& error) {
+    fmt::print(stderr, "simulate: {}\n", error.what());
+    return error.exit_code();
+  }
+  flags.settings.transport = transport_of(flags.transport);
+  return run_simulator(flags.settings);
+}
+
 }  // namespace
 
 void add_simulate_command(CLI::App& app, int& exit_code) {
@@ -72,11 +102,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   add_source_flags(*command, *flags);
   add_transport_flags(*command, *flags);
   add_test_flags(*command, flags->settings);
-  command->callback([flags, &exit_code] {
-    if (flags->units == "in") flags->settings.mm_per_unit = kMmPerInch;
-    flags->settings.transport = transport_of(flags->transport);
-    exit_code = run_simulator(flags->settings);
-  });
+  command->callback([flags, &exit_code] { exit_code = serve_points(*flags); });
 }
 
 }  // namespace bladefit
