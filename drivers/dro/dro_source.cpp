@@ -1,0 +1,118 @@
+#include "drivers/dro/dro_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <thread>
+
+#include "drivers/dro/dro_line.hpp"
+#include "drivers/host_clock.hpp"
+#include "drivers/source_fault.hpp"
+#include "drivers/source_uri.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::size_t kLongestLine = 256;
+
+std::string printable(std::string_view line) {
+  std::string text(line.substr(0, 60));
+  for (char& character : text) {
+    if (std::isprint(static_cast<unsigned char>(character)) == 0) character = '.';
+  }
+  return text;
+}
+
+}  // namespace
+
+DroSource::DroSource(const SourceSettings& settings)
+    : settings_(settings),
+      name_(source_name(settings)),
+      back_off_(settings.dro.reconnect_first, settings.dro.reconnect_longest) {}
+
+SourceError DroSource::open(std::uint32_t after) {
+  status_ = {};
+  points_.clear();
+  line_.clear();
+  too_long_ = false;
+  first_line_ = true;
+  next_ = after + 1;
+  if (const std::string fault = port_.open(settings_.line); !fault.empty())
+    return {fmt::format("{}: {}", name_, fault)};
+  status_.link = LinkState::up;
+  status_.last_fault = port_.remark();
+  return {};
+}
+
+std::size_t DroSource::poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) {
+  const Clock::time_point until = points_.empty() ? Clock::now() + timeout : Clock::now();
+  do {
+    step(until);
+  } while (points_.empty() && Clock::now() < until);
+  return points_.take(points);
+}
+
+void DroSource::step(Clock::time_point until) {
+  if (!port_.is_open()) return reconnect(until);
+  std::array<char, 4096> bytes{};
+  const std::optional<std::size_t> count = port_.read(bytes, until);
+  if (!count) return link_lost("the port has hung up; check the cable, and probe again what was probed meanwhile");
+  for (std::size_t index = 0; index < *count; ++index) take(bytes[index]);
+}
+
+void DroSource::take(char byte) {
+  if (byte == '\r' || byte == '\n') {
+    take_line();
+    line_.clear();
+    too_long_ = false;
+  } else if (line_.size() < kLongestLine) {
+    line_ += byte;
+  } else {
+    too_long_ = true;
+  }
+}
+
+void DroSource::take_line() {
+  const std::string& prefix = settings_.dro.ignore_prefix;
+  const bool ignored = !prefix.empty() && line_.starts_with(prefix);
+  if (line_.find_first_not_of(settings_.dro.separators) == std::string::npos || ignored) return;
+  const bool perhaps_cut = std::exchange(first_line_, false);
+  ProbePoint point;
+  const std::string fault = too_long_ ? "the line is too long" : parse_dro_line(line_, settings_.dro, point.position);
+  if (fault.empty()) {
+    point.sequence = next_++;
+    point.time_us = host_time_us();
+    points_.push(point);
+    ++status_.records;
+    note_good(status_);
+    return;
+  }
+  ++status_.damaged;
+  status_.gap = status_.gap || !perhaps_cut;
+  note_fault(status_, fmt::format("{} in the line '{}'; probe the point again", fault, printable(line_)));
+}
+
+void DroSource::link_lost(const std::string& fault) {
+  port_.close();
+  status_.link = LinkState::lost;
+  status_.gap = true;
+  note_fault(status_, fault);
+  back_off_.failed(Clock::now());
+}
+
+void DroSource::reconnect(Clock::time_point until) {
+  if (Clock::now() < back_off_.retry_at()) {
+    std::this_thread::sleep_until(std::min(until, back_off_.retry_at()));
+    return;
+  }
+  if (const std::string fault = port_.open(settings_.line); !fault.empty()) return link_lost(fault);
+  ++status_.reconnects;
+  back_off_.succeeded();
+  status_.link = LinkState::up;
+  line_.clear();
+  first_line_ = true;
+}
+
+}  // namespace bladefit

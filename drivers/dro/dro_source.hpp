@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+
+#include "drivers/back_off.hpp"
+#include "drivers/point_queue.hpp"
+#include "drivers/probe_source.hpp"
+#include "drivers/serial/serial_port.hpp"
+
+namespace bladefit {
+
+/// A machine that merely prints its position, a line for each point. Nothing can be asked for again, so a line that
+/// cannot be read, or a lost link, is a gap. Points are numbered here; run id and end are unknown.
+class DroSource final : public ProbeSource {
+ public:
+  explicit DroSource(const SourceSettings& settings);
+
+  [[nodiscard]] SourceError open(std::uint32_t after) override;
+  [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
+  void acknowledge(std::uint32_t) override {}
+  void close() override { port_.close(); }
+  [[nodiscard]] const SourceStatus& status() const override { return status_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void step(Clock::time_point until);
+  void reconnect(Clock::time_point until);
+  void link_lost(const std::string& fault);
+  void take(char byte);
+  void take_line();
+
+  const SourceSettings settings_;
+  const std::string name_;
+  SourceStatus status_;
+  SerialPort port_;
+  PointQueue points_;
+  BackOff back_off_;
+  std::string line_;
+  bool too_long_ = false;
+  bool first_line_ = true;  ///< since the port was opened: its beginning may be missing
+  std::uint32_t next_ = 1;
+};
+
+}  // namespace bladefit

@@ -1,0 +1,46 @@
+#pragma once
+#include <string>
+
+#include "drivers/back_off.hpp"
+#include "drivers/probe_source.hpp"
+#include "drivers/serial/echo_filter.hpp"
+#include "drivers/serial/line_framer.hpp"
+#include "drivers/serial/serial_port.hpp"
+#include "drivers/serial/serial_session.hpp"
+
+namespace bladefit {
+
+/// A machine that speaks serial protocol v1.
+class SerialSource final : public ProbeSource {
+ public:
+  explicit SerialSource(const SourceSettings& settings);
+
+  /// Takes at most about settings.serial.open_timeout.
+  [[nodiscard]] SourceError open(std::uint32_t after) override;
+  [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
+  void acknowledge(std::uint32_t sequence) override { session_.acknowledge(sequence); }
+  void close() override;
+  [[nodiscard]] const SourceStatus& status() const override { return status_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void step(Clock::time_point until);
+  void reconnect(Clock::time_point until);
+  void link_made();
+  void link_lost(const std::string& fault);
+  void send();
+  void take_lines();
+
+  const SourceSettings settings_;
+  const std::string name_;
+  SourceStatus status_;
+  SerialSession session_;
+  SerialPort port_;
+  LineFramer framer_;
+  EchoFilter echo_;
+  BackOff back_off_;
+  std::string unsent_;
+};
+
+}  // namespace bladefit
