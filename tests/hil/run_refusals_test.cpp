@@ -1,0 +1,58 @@
+// Missing, busy and foreign devices: one line that names the device and the mend, exit code 3, no result left behind.
+#include <gtest/gtest.h>
+
+#include "tests/hil/session.hpp"
+
+namespace bladefit::hil {
+namespace {
+
+/// Runs a session to its end and expects a device failure told in one line with these words.
+void expect_device_failure(const std::string& source, const std::vector<std::string>& words,
+                           const std::vector<std::string>& more = kUntilIdle) {
+  SCOPED_TRACE(source);
+  const Scratch scratch;
+  Process run(run_options(source, scratch / "session", scratch / "result.json", more));
+  EXPECT_EQ(run.exit_code(30s), 3) << run.out();
+  const std::string line = run.err();
+  EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+  for (const std::string& word : words) EXPECT_NE(line.find(word), std::string::npos) << line;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "result.json"));
+}
+
+TEST(RunRefusals, NobodyListensAtThePort) { expect_device_failure("modbus-tcp://127.0.0.1:1", {"127.0.0.1:1"}); }
+
+TEST(RunRefusals, TheDeviceDoesNotExist) {
+  expect_device_failure("modbus-rtu:/nowhere/cmm", {"/nowhere/cmm"});
+  expect_device_failure("serial:/nowhere/cmm", {"/nowhere/cmm"});
+}
+
+TEST(RunRefusals, AnotherMapVersion) {
+  SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints, {"--map-version", "2"}));
+  expect_device_failure(source_of(Link::modbus_tcp, machine.address()), {machine.address(), "version 2"});
+}
+
+TEST(RunRefusals, TheDeviceIsBusy) {
+  for (const Link link : {Link::modbus_rtu, Link::serial}) {
+    const Scratch scratch;
+    SimulatedMachine machine(machine_options(link, scratch / "cmm", kAllPoints, {"--rate", "100"}));
+    const std::string source = source_of(link, machine.address());
+    Process first(run_options(source, scratch / "session", scratch / "result.json"));
+    ASSERT_TRUE(wait_for_points(first, 10)) << first.err();
+    expect_device_failure(source, {"cmm", "busy"});
+    EXPECT_TRUE(first.running());
+  }
+}
+
+TEST(RunRefusals, ThePanelsPortIsBusy) {
+  SimulatedMachine other(machine_options(Link::modbus_tcp, "0", kFewPoints));
+  SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints));
+  const Scratch scratch;
+  Process run({BLADEFIT_COMMAND, "run", "--design", kBlade, "--source", source_of(Link::modbus_tcp, machine.address()),
+               "--leading-edge", "u:0.4:0.6", "--tolerance", "0.1", "--session", scratch / "session", "--panel",
+               other.address(), "--headless"});
+  EXPECT_EQ(run.exit_code(20s), 3);
+  EXPECT_NE(run.err().find(other.address()), std::string::npos) << run.err();
+}
+
+}  // namespace
+}  // namespace bladefit::hil
