@@ -22,7 +22,8 @@ bool all_finite(std::span<const double> values) {
 }
 
 bool numbers_are_finite(const bladefit_config& config) {
-  const double single[] = {config.probe_radius_mm, config.noise_floor_mm, config.determined_mm, config.transition};
+  const double single[] = {config.probe_radius_mm, config.noise_floor_mm, config.determined_mm,
+                           config.transition,      config.window_low,     config.window_high};
   const auto boxes = std::span(config.boxes).first(config.box_count);
   return all_finite(single) && all_finite(config.start_rotation) && all_finite(config.start_translation) &&
          !is_not_number(config.leading_edge_tolerance_mm) && !is_not_number(config.rest_tolerance_mm) &&
@@ -40,7 +41,8 @@ bool choices_are_in_range(const bladefit_config& config) {
 
 bool lengths_are_in_range(const bladefit_config& config) {
   return config.probe_radius_mm >= 0 && config.noise_floor_mm > 0 && config.determined_mm >= 0 &&
-         config.leading_edge_tolerance_mm > 0 && config.rest_tolerance_mm > 0 && config.transition >= 0;
+         config.leading_edge_tolerance_mm > 0 && config.rest_tolerance_mm > 0 && config.transition >= 0 &&
+         config.window_low >= 0 && config.window_low < config.window_high && config.window_high <= 1;
 }
 
 bool boxes_are_in_range(const bladefit_config& config) {
@@ -85,6 +87,8 @@ bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& t
   to.edges = static_cast<EdgePolicy>(from.edges);
   to.noise_floor_mm = from.noise_floor_mm;
   to.determined_mm = from.determined_mm;
+  to.window_low = from.window_low;
+  to.window_high = from.window_high;
   to.start = {rotation, Eigen::Map<const Vec3>(from.start_translation)};
   to.tolerance = tolerance_from(from);
   return BLADEFIT_OK;

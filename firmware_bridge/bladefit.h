@@ -98,6 +98,8 @@ typedef struct bladefit_config {
   double leading_edge_tolerance_mm; /* > 0; INFINITY = not judged */
   double rest_tolerance_mm;         /* > 0; INFINITY = not judged */
   double transition;                /* >= 0; width in parameter units over which the tolerance rises outside a box */
+  double window_low;                /* 0..1; points whose foot at the start pose has u or v below this are rejected */
+  double window_high;               /* above window_low, at most 1; or above this */
   double start_rotation[9];         /* row by row, orthogonal to 1e-9: where the fit starts, machine -> design */
   double start_translation[3];      /* [mm] */
   bladefit_box boxes[BLADEFIT_MAX_BOXES]; /* the leading-edge region is the union of the first box_count */
@@ -107,7 +109,7 @@ typedef struct bladefit_config {
 #define BLADEFIT_CONFIG_DEFAULTS                                                                                     \
   {                                                                                                                  \
     (uint32_t)sizeof(bladefit_config), 65536u, 8u, 1u, BLADEFIT_EDGES_SKIP, 0u, 0.0, 0.005, 0.0, INFINITY, INFINITY, \
-        0.0, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, {                                       \
+        0.0, 0.0, 1.0, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, {                             \
       { 0.0, 0.0, 0.0, 0.0, 0u, 0u }                                                                                 \
     }                                                                                                                \
   }

@@ -48,6 +48,8 @@ std::uint64_t config_digest(const LocalizerConfig& config, std::uint32_t path_re
   digest.add(static_cast<std::uint8_t>(config.edges));
   digest.add(config.noise_floor_mm);
   digest.add(config.determined_mm);
+  digest.add(config.window_low);
+  digest.add(config.window_high);
   for (const double entry : config.start.rotation.reshaped()) digest.add(entry);
   for (const double entry : config.start.translation) digest.add(entry);
   add_tolerance(config.tolerance, digest);

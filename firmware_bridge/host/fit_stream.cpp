@@ -36,6 +36,7 @@ void FitStream::end_path() {
 void FitStream::settle() {
   if (settled_) return;
   settled_ = true;
+  localizer_.conclude();
   for (int call = 0; call < kMostSettleCalls; ++call) {
     if (localizer_.refine(kSettlePoints) != Status::more_work) return;
   }

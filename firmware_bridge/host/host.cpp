@@ -53,6 +53,9 @@ HostError check_identity(const std::string& path, const JournalContent& recorded
   return {};
 }
 
+/// False for a record that the localizer could not use, such as one with a number that is not finite.
+bool has_foot(const Verdict& verdict) { return !verdict.foot.normal.isZero(); }
+
 }  // namespace
 
 std::string journal_path(const std::string& session_directory) {
@@ -159,7 +162,8 @@ SessionResult Host::finish() {
                        .error = shared_.error(),
                        .report = running_->localizer->fit(),
                        .points = {},
-                       .verdicts = {}};
+                       .verdicts = {},
+                       .refused = 0};
   JournalContent recorded;
   const HostError unreadable = read_journal(journal_path(settings_.session_directory), recorded);
   if (unreadable && !result.error) result.error = unreadable;
@@ -174,6 +178,10 @@ SessionResult Host::finish() {
     Verdict verdict = *last;
     // A point whose place was given away keeps the last verdict that came out for it.
     [[maybe_unused]] const Status status = running_->localizer->verdict_of(event.point.sequence, verdict);
+    if (!has_foot(verdict)) {
+      ++result.refused;
+      continue;
+    }
     result.points.push_back(event.point);
     result.verdicts.push_back(verdict);
   }

@@ -28,6 +28,7 @@ struct SessionResult {
   FitReport report;
   std::vector<ProbePoint> points;  ///< as journalled, rising sequence
   std::vector<Verdict> verdicts;   ///< final ones; verdicts[i] is that of points[i]
+  std::uint32_t refused = 0;       ///< journalled records that cannot be used; they are not among `points`
 };
 
 /// The ready host: takes points from a source, keeps them in the journal of a session, judges them and serves a panel,
