@@ -2,82 +2,16 @@
 
 #include <fmt/format.h>
 #include <IGESControl_Reader.hxx>
-#include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESGeom_BSplineSurface.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <gp_GTrsf.hxx>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
-
 #include "tools/design/cad_session.hpp"
 #include "tools/design/iges_text.hpp"
-#include "tools/design/length_unit.hpp"
 
 namespace bladefit {
 namespace {
-
-/// Units of IGES 5.3, section 2.2.4.3.14; the flag is the place in the table, counted from 1.
-struct IgesUnit {
-  const char* code;
-  const char* name;
-  double mm;
-};
-constexpr int kNamedUnitFlag = 3;
-constexpr std::array<IgesUnit, 11> kIgesUnits = {{{"IN", "inch", 25.4},
-                                                  {"MM", "millimetre", 1.0},
-                                                  {"", "", 0.0},
-                                                  {"FT", "foot", 304.8},
-                                                  {"MI", "mile", 1609344.0},
-                                                  {"M", "metre", 1000.0},
-                                                  {"KM", "kilometre", 1e6},
-                                                  {"MIL", "mil", 0.0254},
-                                                  {"UM", "micrometre", 1e-3},
-                                                  {"CM", "centimetre", 10.0},
-                                                  {"UIN", "microinch", 25.4e-6}}};
-
-LengthUnit named_unit(const IGESData_GlobalSection& global, const std::string& file) {
-  std::string name = global.UnitName().IsNull() ? "" : global.UnitName()->ToCString();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
-  if (name == "INCH") name = "IN";
-  for (const IgesUnit& unit : kIgesUnits) {
-    if (!name.empty() && name == unit.code) return {unit.mm, unit.name};
-  }
-  throw DesignError(
-      fmt::format("{}: global section: unknown unit name \"{}\" in field 15; export the design in mm or "
-                  "inches",
-                  file, name));
-}
-
-/// Field 14 (flag) and, where the flag says so, field 15 (name) of the global section.
-LengthUnit read_unit(const IGESData_GlobalSection& global, const std::string& file) {
-  const int flag = global.UnitFlag();
-  if (flag == kNamedUnitFlag) return named_unit(global, file);
-  if (flag < 1 || flag > static_cast<int>(kIgesUnits.size())) {
-    throw DesignError(fmt::format(
-        "{}: global section: unknown unit flag {} in field 14; export the design in mm or inches", file, flag));
-  }
-  const IgesUnit& unit = kIgesUnits[static_cast<std::size_t>(flag - 1)];
-  return {unit.mm, unit.name};
-}
-
-/// Millimetres in one unit of the coordinates: the unit over the model space scale (field 13).
-double read_scale(const IGESData_GlobalSection& global, const LengthUnit& unit, DesignFile& design,
-                  const std::string& file) {
-  const double scale = global.Scale();
-  if (!std::isfinite(scale) || scale <= 0) {
-    throw DesignError(
-        fmt::format("{}: global section: model space scale {} in field 13 is not above 0; export the "
-                    "design at scale 1",
-                    file, scale));
-  }
-  if (scale == 1.0) return unit.mm;
-  design.warnings.push_back(fmt::format("model space scale {}: coordinates are divided by it", scale));
-  return unit.mm / scale;
-}
 
 SurfaceDirection read_direction(const IGESGeom_BSplineSurface& entity, bool along_u) {
   SurfaceDirection direction;
@@ -159,12 +93,10 @@ DesignFile read_model(const std::string& file, const IgesContents& contents) {
     throw DesignError(fmt::format("{}: the IGES file cannot be parsed; export the design again", file));
   }
   const Handle(IGESData_IGESModel) model = reader.IGESModel();
-  const IGESData_GlobalSection& global = model->GlobalSection();
-  const LengthUnit unit = read_unit(global, file);
   DesignFile design;
-  design.unit = shown_unit(unit);
-  if (const std::string note = shown_unit_note(unit); !note.empty()) design.warnings.push_back(note);
-  const double mm = read_scale(global, unit, design, file);
+  design.unit = shown_unit(contents.global.unit);
+  design.warnings = contents.global.warnings;
+  const double mm = contents.global.unit.mm / contents.global.model_scale;
   check_contents(contents, design, file);
   for (const IgesSurfaceRange& range : contents.surfaces) {
     const int number = (range.directory_number + 1) / 2;

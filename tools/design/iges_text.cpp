@@ -113,18 +113,6 @@ void check_terminate(const Sections& sections, std::size_t line_count) {
   }
 }
 
-/// Parameter and record delimiter: the first two fields of the global section, "," and ";" where left out.
-IgesDelimiters read_delimiters(const Sections& sections) {
-  IgesDelimiters delimiters;
-  std::string_view global = sections.of('G').records.front();
-  if (global.substr(0, 2) == "1H") {
-    delimiters.parameter = global[2];
-    global.remove_prefix(3);
-  }
-  if (global.front() == delimiters.parameter && global.substr(1, 2) == "1H") delimiters.record = global[3];
-  return delimiters;
-}
-
 /// The parameter records of the directory entry whose first record is `entry`.
 IgesParameters find_parameters(const Sections& sections, std::size_t entry) {
   const Section& directory = sections.of('D');
@@ -149,19 +137,19 @@ IgesContents check_iges_text(std::string_view text, const std::string& file) {
   const std::vector<std::string_view> lines = split_lines(text);
   const Sections sections = split_sections(lines, file);
   check_terminate(sections, lines.size());
-  const IgesDelimiters delimiters = read_delimiters(sections);
   const Section& directory = sections.of('D');
   if (directory.records.size() % 2 != 0) {
     sections.fail(directory.first_line, "the directory has an odd number of records");
   }
   IgesContents contents;
+  contents.global = read_iges_global(sections.of('G').records, file);
   for (std::size_t entry = 0; entry < directory.records.size(); entry += 2) {
     const auto type = parse_integer(directory.records[entry].substr(0, 8));
     if (!type) sections.fail(directory.first_line + entry, "the directory entry has no entity type");
     const IgesParameters parameters = find_parameters(sections, entry);
     ++contents.type_counts[*type];
     if (*type != kIgesSurfaceType) continue;
-    contents.surfaces.push_back(check_iges_surface(parameters, delimiters, file));
+    contents.surfaces.push_back(check_iges_surface(parameters, contents.global.delimiters, file));
   }
   return contents;
 }

@@ -4,12 +4,14 @@
 #include <string_view>
 #include <vector>
 
+#include "tools/design/iges_global_text.hpp"
 #include "tools/design/iges_surface_text.hpp"
 
 namespace bladefit {
 
 /// What the text of an IGES file says it holds.
 struct IgesContents {
+  IgesGlobal global;
   std::vector<IgesSurfaceRange> surfaces;  ///< the entities 128, in the order of the file
   std::map<int, int> type_counts;          ///< number of entities of each type
 };
