@@ -27,7 +27,7 @@ Number parse_number(std::string_view item, std::string_view text, std::string_vi
 
 double parse_probability(std::string_view item, std::string_view text) {
   constexpr std::string_view kMend = "needs a probability from 0 to 1, for example drop=0.01";
-  const double probability = parse_number<double>(item, text, kMend);
+  const auto probability = parse_number<double>(item, text, kMend);
   if (!(probability >= 0 && probability <= 1)) refuse(item, kMend);
   return probability;
 }
@@ -42,7 +42,7 @@ void parse_delay(std::string_view item, std::string_view text, FaultSettings& se
   std::string_view time = text.substr(colon + 1);
   if (!time.ends_with("ms")) refuse(item, kMend);
   time.remove_suffix(2);
-  const double milliseconds = parse_number<double>(item, time, kMend);
+  const auto milliseconds = parse_number<double>(item, time, kMend);
   if (!(milliseconds >= 0 && milliseconds <= kLongestDelayMs)) refuse(item, kMend);
   settings.delay_time = std::chrono::nanoseconds(static_cast<std::int64_t>(milliseconds * 1e6));
 }
