@@ -9,6 +9,7 @@
 
 #include "drivers/crc16.hpp"
 #include "drivers/modbus/cmm_header.hpp"
+#include "drivers/serial/line_speed.hpp"
 #include "drivers/wait_ready.hpp"
 
 namespace bladefit {
@@ -43,15 +44,8 @@ std::chrono::microseconds wire_time(std::size_t bytes, const SerialLineSettings&
   return std::chrono::microseconds(static_cast<std::int64_t>(bytes) * bits * 1'000'000 / line.baud + 1);
 }
 
-bool is_standard_baud(int baud) {
-  constexpr std::array kRates = {1200,    2400,    4800,    9600,    19200,   38400,   57600,
-                                 115200,  230400,  460800,  500000,  576000,  921600,  1000000,
-                                 1152000, 1500000, 2000000, 2500000, 3000000, 3500000, 4000000};
-  return std::find(kRates.begin(), kRates.end(), baud) != kRates.end();
-}
-
 std::string RtuLink::prepare() {
-  if (!is_standard_baud(settings_.line.baud)) {
+  if (!speed_code(settings_.line.baud)) {
     return fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings_.line.baud);
   }
   const ModbusSettings& modbus = settings_.modbus;

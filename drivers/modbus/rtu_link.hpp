@@ -34,7 +34,4 @@ class RtuLink final : public ModbusLink {
 /// Time that `bytes` take on a serial line.
 [[nodiscard]] std::chrono::microseconds wire_time(std::size_t bytes, const SerialLineSettings& line);
 
-/// Whether the rate is one that ports can be set to without falling back to another.
-[[nodiscard]] bool is_standard_baud(int baud);
-
 }  // namespace bladefit

@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "drivers/serial/port_list.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -35,7 +37,7 @@ std::string port_error_text(int error) {
     case ENOENT:
     case ENXIO:
     case ENODEV:
-      return "there is no such port; plug in the machine's cable or correct the path";
+      return fmt::format("there is no such port; plug in the machine's cable or correct the path ({})", known_ports());
     case EBUSY:
     case EWOULDBLOCK:
       return "the port is busy: another program uses it; end that program";

@@ -24,6 +24,9 @@ class PortGuard {
 
   void release();
 
+  /// The port, open without blocking for reading and writing; -1 = not locked.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
  private:
   std::string device_;
   int descriptor_ = -1;

@@ -1,34 +1,48 @@
 #include "drivers/serial/serial_port.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
 
-#include <filesystem>
+#include <cerrno>
 #include <thread>
 
+#include "drivers/serial/line_speed.hpp"
 #include "drivers/wait_ready.hpp"
 
 namespace bladefit {
 namespace {
 
-sp_parity parity_of(Parity parity) {
+tcflag_t parity_flags(Parity parity) {
   switch (parity) {
     case Parity::none:
-      return SP_PARITY_NONE;
+      return 0;
     case Parity::even:
-      return SP_PARITY_EVEN;
+      return PARENB;
     case Parity::odd:
       break;
   }
-  return SP_PARITY_ODD;
+  return PARENB | PARODD;
 }
 
-/// Sets every property of the line. Returns a phrase with the mend; empty = set.
-std::string configure(sp_port* port, const SerialLineSettings& settings) {
-  const bool set = sp_set_baudrate(port, settings.baud) == SP_OK && sp_set_bits(port, settings.data_bits) == SP_OK &&
-                   sp_set_parity(port, parity_of(settings.parity)) == SP_OK &&
-                   sp_set_stopbits(port, settings.stop_bits) == SP_OK &&
-                   sp_set_flowcontrol(port, SP_FLOWCONTROL_NONE) == SP_OK;
-  if (set) return {};
+/// Raw bytes, no flow control, no modem lines. Returns a phrase with the mend; empty = set.
+std::string configure(int descriptor, const SerialLineSettings& settings) {
+  const std::optional<speed_t> speed = speed_code(settings.baud);
+  termios line{};
+  if (!speed) return fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings.baud);
+  if (::tcgetattr(descriptor, &line) != 0) return port_error_text(errno);
+  ::cfmakeraw(&line);
+  line.c_cflag &= ~static_cast<tcflag_t>(CSIZE | CSTOPB | PARENB | PARODD | CRTSCTS);
+  line.c_cflag |= CREAD | CLOCAL | parity_flags(settings.parity);
+  line.c_cflag |= static_cast<tcflag_t>(settings.data_bits == 7 ? CS7 : CS8);
+  if (settings.stop_bits == 2) line.c_cflag |= CSTOPB;
+  if (settings.parity != Parity::none) line.c_iflag |= INPCK;
+  line.c_cc[VMIN] = 0;
+  line.c_cc[VTIME] = 0;
+  ::cfsetispeed(&line, *speed);
+  ::cfsetospeed(&line, *speed);
+  if (::tcsetattr(descriptor, TCSANOW, &line) == 0) return {};
   return fmt::format("the port cannot be set to {} baud, {} data bits, {} stop bits; correct the settings of the line",
                      settings.baud, settings.data_bits, settings.stop_bits);
 }
@@ -38,62 +52,39 @@ std::string configure(sp_port* port, const SerialLineSettings& settings) {
 std::string SerialPort::open(const SerialLineSettings& settings) {
   close();
   if (std::string fault = guard_.lock(settings.device); !fault.empty()) return fault;
-  std::string fault;
-  // libserialport knows ports by their names below /dev only, and a by-id path is a link.
-  std::error_code missing;
-  const std::filesystem::path real = std::filesystem::canonical(settings.device, missing);
-  if (missing || sp_get_port_by_name(real.c_str(), &port_) != SP_OK) {
-    port_ = nullptr;
-    fault = "this is no serial port; correct the path";
-  } else if (sp_open(port_, SP_MODE_READ_WRITE) != SP_OK) {
-    fault = port_error_text(sp_last_error_code());
-    sp_free_port(port_);
-    port_ = nullptr;
-  } else {
-    fault = configure(port_, settings);
-  }
-  if (!fault.empty()) {
+  if (std::string fault = configure(guard_.descriptor(), settings); !fault.empty()) {
     close();
     return fault;
   }
-  sp_flush(port_, SP_BUF_BOTH);
-  sp_get_port_handle(port_, &descriptor_);
   guard_.shut_out_others();
+  ::tcflush(guard_.descriptor(), TCIOFLUSH);
   remark_ = settings.low_latency ? guard_.ask_low_latency() : std::string{};
   return {};
 }
 
 std::optional<std::size_t> SerialPort::read(std::span<char> bytes, Clock::time_point until) {
-  const Readiness readiness = wait_ready(descriptor_, false, until);
+  const Readiness readiness = wait_ready(guard_.descriptor(), false, until);
   if (readiness == Readiness::hang_up) return std::nullopt;
   if (readiness == Readiness::timeout) return std::size_t{0};
-  const int count = sp_nonblocking_read(port_, bytes.data(), bytes.size());
-  // Nothing in a port that could be read means that the other end is gone.
+  const ssize_t count = ::read(guard_.descriptor(), bytes.data(), bytes.size());
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return std::size_t{0};
+  // Nothing in a port that could be read means that the other end is gone; a pulled adapter gives EIO.
   if (count <= 0) return std::nullopt;
   return static_cast<std::size_t>(count);
 }
 
 std::optional<std::size_t> SerialPort::write(std::string_view bytes) {
-  const int count = sp_nonblocking_write(port_, bytes.data(), bytes.size());
-  if (count < 0) return std::nullopt;
-  return static_cast<std::size_t>(count);
+  const ssize_t count = ::write(guard_.descriptor(), bytes.data(), bytes.size());
+  if (count >= 0) return static_cast<std::size_t>(count);
+  if (errno == EAGAIN || errno == EINTR) return std::size_t{0};
+  return std::nullopt;
 }
 
 void SerialPort::drain(Clock::time_point until) {
-  while (port_ != nullptr && sp_output_waiting(port_) > 0 && Clock::now() < until) {
+  int waiting = 0;
+  while (is_open() && ::ioctl(guard_.descriptor(), TIOCOUTQ, &waiting) == 0 && waiting > 0 && Clock::now() < until) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-}
-
-void SerialPort::close() {
-  if (port_ != nullptr) {
-    // Closing a port whose device is gone may fail; what matters is that it can be opened again.
-    sp_close(port_);
-    sp_free_port(port_);
-  }
-  port_ = nullptr;
-  descriptor_ = -1;
-  guard_.release();
 }
 
 }  // namespace bladefit

@@ -1,6 +1,4 @@
 #pragma once
-#include <libserialport.h>
-
 #include <chrono>
 #include <optional>
 #include <span>
@@ -13,6 +11,7 @@
 namespace bladefit {
 
 /// An open serial port of which this process is the only user. Nothing here blocks longer than it is told to.
+/// It speaks to the system itself, because libserialport opens no pseudo terminals and goes on reading after a hang-up.
 class SerialPort {
  public:
   using Clock = std::chrono::steady_clock;
@@ -25,7 +24,7 @@ class SerialPort {
   /// Opens and sets the port and throws away what was waiting in it. Returns a phrase with the mend; empty = open.
   [[nodiscard]] std::string open(const SerialLineSettings& settings);
 
-  [[nodiscard]] bool is_open() const { return port_ != nullptr; }
+  [[nodiscard]] bool is_open() const { return guard_.descriptor() >= 0; }
 
   /// Waits for bytes until `until` and takes them. Returns how many, 0 = none came; nothing where the port has hung up.
   [[nodiscard]] std::optional<std::size_t> read(std::span<char> bytes, Clock::time_point until);
@@ -36,15 +35,13 @@ class SerialPort {
   /// Waits until everything written has left the port, until `until` at the latest.
   void drain(Clock::time_point until);
 
-  void close();
+  void close() { guard_.release(); }
 
   /// Something the user should know of the open port; empty = nothing.
   [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:
   PortGuard guard_;
-  sp_port* port_ = nullptr;
-  int descriptor_ = -1;
   std::string remark_;
 };
 
