@@ -108,6 +108,7 @@ struct ModbusSettings {
 struct SerialSettings {
   std::chrono::milliseconds start_interval{500};      ///< an unanswered $START is repeated after this
   std::chrono::milliseconds resend_interval{250};     ///< least time between two $NAK for the same record
+  std::chrono::milliseconds resend_pause{50};         ///< least time between any two $NAK, and patience after damage
   std::chrono::milliseconds silence{1000};            ///< after this without a frame the host asks again
   std::chrono::milliseconds open_timeout{5000};       ///< a device that has not answered $START by then is an error
   std::chrono::milliseconds reconnect_first{50};      ///< first pause before opening the port again; it doubles ...

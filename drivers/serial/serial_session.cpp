@@ -14,7 +14,8 @@ namespace protocol = serial_protocol_v1;
 
 namespace {
 
-constexpr int kStartsToLost = 3;       ///< unanswered $START in a row after which the link counts as lost
+constexpr std::size_t kMostAhead = 4096;  ///< records kept behind a missing one
+constexpr int kStartsToLost = 3;          ///< unanswered $START in a row after which the link counts as lost
 constexpr int kSilencesToRestart = 5;  ///< intervals of silence after which $START asks whether the device still lives
 
 }  // namespace
@@ -23,9 +24,11 @@ void SerialSession::restart(std::uint32_t after) {
   stage_ = Stage::down;
   points_.clear();
   output_.clear();
+  ahead_.clear();
   next_ = after + 1;
   stored_ = acknowledged_ = after;
-  run_known_ = finished_ = false;
+  run_known_ = doubtful_ = false;
+  end_ = 0;
   asked_for_ = 0;
   asked_ = 0;
 }
@@ -33,6 +36,7 @@ void SerialSession::restart(std::uint32_t after) {
 void SerialSession::link_made(Clock::time_point now) {
   output_.clear();
   starts_ = 0;
+  doubtful_ = false;
   start(now);
 }
 
@@ -62,7 +66,7 @@ void SerialSession::received(const SerialMessage& message, Clock::time_point now
 void SerialSession::run_told(std::uint32_t run_id, Clock::time_point now) {
   if (run_known_ && next_ > 1 && run_id != status_.run_id) {
     stage_ = Stage::stopped;
-    finished_ = false;
+    end_ = 0;
     note_fault(status_,
                fmt::format("the device has begun another run ({} instead of {}) and numbers its records from 1 "
                            "again; end this session and start a new one",
@@ -80,64 +84,99 @@ void SerialSession::run_told(std::uint32_t run_id, Clock::time_point now) {
 
 void SerialSession::point_came(const ProbePoint& point, Clock::time_point now, std::int64_t time_us) {
   ++status_.records;
+  ProbePoint stamped = point;
+  stamped.time_us = time_us;
+  if (point.sequence > next_) {
+    if (ahead_.size() < kMostAhead && !ahead_.emplace(point.sequence, stamped).second) ++status_.duplicates;
+    return ask_again(now);
+  }
   if (point.sequence < next_) {
     ++status_.duplicates;
     return;
   }
-  if (point.sequence > next_ && !give_up_before(point.sequence, now)) return ask_again(now);
-  ProbePoint stamped = point;
-  stamped.time_us = time_us;
-  points_.push(stamped);
+  deliver(stamped);
+}
+
+/// Hands out a record and those kept behind it. A record beyond the end told before means that probing goes on.
+void SerialSession::deliver(const ProbePoint& point) {
+  doubtful_ = false;
+  points_.push(point);
   next_ = point.sequence + 1;
-  finished_ = false;
+  while (!ahead_.empty() && ahead_.begin()->first <= next_) {
+    if (ahead_.begin()->first == next_) {
+      points_.push(ahead_.begin()->second);
+      ++next_;
+    }
+    ahead_.erase(ahead_.begin());
+  }
+  if (next_ > end_ + 1) end_ = 0;
 }
 
 void SerialSession::end_told(std::uint32_t last, Clock::time_point now) {
-  if (last >= next_) {
-    if (!give_up_before(last + 1, now)) return ask_again(now);
-    next_ = last + 1;
+  if (last + 1 < next_) return;
+  end_ = last;
+  if (complete()) {
+    doubtful_ = false;
+  } else {
+    ask_again(now);
   }
-  finished_ = last + 1 == next_;
 }
 
-/// Whether the records from next_ to before `sequence` count as lost, because the device was asked for them often
-/// enough.
-bool SerialSession::give_up_before(std::uint32_t sequence, Clock::time_point now) {
-  const bool asked_enough = asked_for_ == next_ && asked_ >= settings_.resend_tries;
-  if (!asked_enough || now < asked_at_ + settings_.resend_interval) return false;
+/// The device was asked for the record next_ often enough.
+bool SerialSession::asked_in_vain(Clock::time_point now) const {
+  return asked_for_ == next_ && asked_ >= settings_.resend_tries && now >= asked_at_ + settings_.resend_interval;
+}
+
+void SerialSession::give_up_before(std::uint32_t sequence) {
   status_.gap = true;
   note_fault(status_,
              fmt::format("records {}..{} are lost: the device did not send them in {} tries; probe these points "
                          "again",
                          next_, sequence - 1, asked_));
-  return true;
+  next_ = sequence;
 }
 
+/// When the first missing record may be asked for.
+SerialSession::Clock::time_point SerialSession::ask_at() const {
+  return asked_at_ + (asked_for_ == next_ ? settings_.resend_interval : settings_.resend_pause);
+}
+
+/// Asks for the first missing record, unless it is too early, or gives it up.
 void SerialSession::ask_again(Clock::time_point now) {
-  const bool same = asked_for_ == next_;
-  if (same && now < asked_at_ + settings_.resend_interval) return;
-  asked_ = same ? asked_ + 1 : 1;
+  if (now < ask_at()) return;
+  const bool missing = !ahead_.empty() || end_ >= next_;
+  if (missing && asked_in_vain(now)) {
+    if (ahead_.empty()) return give_up_before(end_ + 1);
+    give_up_before(ahead_.begin()->first);
+    return deliver(ProbePoint(ahead_.begin()->second));
+  }
+  asked_ = asked_for_ == next_ ? asked_ + 1 : 1;
   asked_for_ = next_;
   asked_at_ = now;
+  doubtful_ = false;
   ++status_.resends;
   output_ += encode_line(protocol::kMissingTag, next_);
 }
 
+/// The line may have been a resent one that is not needed, so it is seen first whether the next record follows.
 void SerialSession::damaged(const std::string& what, Clock::time_point now) {
   ++status_.damaged;
   note_fault(status_, what);
-  if (stage_ == Stage::running && !finished_) ask_again(now);
+  if (stage_ != Stage::running || complete()) return;
+  doubtful_ = true;
+  doubted_at_ = now;
 }
 
 void SerialSession::tick(Clock::time_point now) {
-  if (now < next_tick()) return;
+  if (now < next_tick() || stage_ == Stage::down || stage_ == Stage::stopped) return;
   if (stage_ == Stage::starting) {
     if (starts_ >= kStartsToLost) status_.link = LinkState::lost;
     note_fault(status_, fmt::format("the device has not answered {} starts", starts_));
     start(now);
-  } else if (stage_ == Stage::running) {
-    break_silence(now);
+    return;
   }
+  if (now >= heard_at_ + settings_.silence) return break_silence(now);
+  ask_again(now);
 }
 
 /// Something may have been lost without a trace: the last record, the end, an acknowledge the device waits for. A
@@ -146,7 +185,7 @@ void SerialSession::break_silence(Clock::time_point now) {
   heard_at_ = now;
   ++silences_;
   if (stored_ > 0) output_ += encode_line(protocol::kAcknowledgeTag, stored_);
-  if (finished_) return;
+  if (complete()) return;
   if (silences_ % kSilencesToRestart == 0) {
     starts_ = 0;
     start(now);
@@ -156,16 +195,12 @@ void SerialSession::break_silence(Clock::time_point now) {
 }
 
 SerialSession::Clock::time_point SerialSession::next_tick() const {
-  switch (stage_) {
-    case Stage::starting:
-      return started_at_ + settings_.start_interval;
-    case Stage::running:
-      return heard_at_ + settings_.silence;
-    case Stage::down:
-    case Stage::stopped:
-      break;
-  }
-  return Clock::time_point::max();
+  if (stage_ == Stage::starting) return started_at_ + settings_.start_interval;
+  if (stage_ != Stage::running) return Clock::time_point::max();
+  const Clock::time_point silent_at = heard_at_ + settings_.silence;
+  if (!ahead_.empty() || end_ >= next_) return std::min(silent_at, ask_at());
+  if (doubtful_) return std::min(silent_at, std::max(ask_at(), doubted_at_ + settings_.resend_pause));
+  return silent_at;
 }
 
 void SerialSession::acknowledge(std::uint32_t sequence) { stored_ = std::max(stored_, sequence); }

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "drivers/point_queue.hpp"
@@ -62,17 +63,21 @@ class SerialSession {
   [[nodiscard]] bool stopped() const { return stage_ == Stage::stopped; }
 
   /// The device said that the program is finished, and every record was handed out.
-  [[nodiscard]] bool finished() const { return finished_ && points_.empty(); }
+  [[nodiscard]] bool finished() const { return complete() && points_.empty(); }
 
  private:
   enum class Stage : std::uint8_t { down, starting, running, stopped };
 
+  [[nodiscard]] bool complete() const { return end_ != 0 && end_ + 1 == next_; }
   void start(Clock::time_point now);
   void run_told(std::uint32_t run_id, Clock::time_point now);
   void point_came(const ProbePoint& point, Clock::time_point now, std::int64_t time_us);
   void end_told(std::uint32_t last, Clock::time_point now);
+  void deliver(const ProbePoint& point);
   void ask_again(Clock::time_point now);
-  [[nodiscard]] bool give_up_before(std::uint32_t sequence, Clock::time_point now);
+  [[nodiscard]] bool asked_in_vain(Clock::time_point now) const;
+  void give_up_before(std::uint32_t sequence);
+  [[nodiscard]] Clock::time_point ask_at() const;
   void break_silence(Clock::time_point now);
 
   const SerialSettings& settings_;
@@ -80,15 +85,18 @@ class SerialSession {
   Stage stage_ = Stage::down;
   PointQueue points_;
   std::string output_;
+  std::map<std::uint32_t, ProbePoint> ahead_;  ///< records behind a missing one
   std::uint32_t next_ = 1;
+  std::uint32_t end_ = 0;  ///< last sequence of the program, as $END told it; 0 = not told
   std::uint32_t stored_ = 0, acknowledged_ = 0;
   bool run_known_ = false;
-  bool finished_ = false;
+  bool doubtful_ = false;           ///< a damaged line came since the last good record
   int starts_ = 0;                  ///< $START sent in a row without an answer
   int silences_ = 0;                ///< intervals of silence in a row
   std::uint32_t asked_for_ = 0;     ///< record of the last $NAK; 0 = none
   int asked_ = 0;                   ///< how often it was asked for
   Clock::time_point asked_at_{};    ///< time of the last $NAK
+  Clock::time_point doubted_at_{};  ///< time of the damaged line
   Clock::time_point started_at_{};  ///< time of the last $START
   Clock::time_point heard_at_{};    ///< time of the last line, or of the last try to break the silence
 };
