@@ -1,122 +1,111 @@
 #include "tools/design/iges_reader.hpp"
 
 #include <fmt/format.h>
-#include <IGESControl_Reader.hxx>
-#include <IGESData_IGESModel.hxx>
-#include <IGESGeom_BSplineSurface.hxx>
-#include <TCollection_HAsciiString.hxx>
-#include <gp_GTrsf.hxx>
 
-#include "tools/design/cad_session.hpp"
+#include <algorithm>
+#include <map>
+
+#include "tools/design/iges_global.hpp"
+#include "tools/design/iges_surface.hpp"
 #include "tools/design/iges_text.hpp"
 
 namespace bladefit {
 namespace {
 
-SurfaceDirection read_direction(const IGESGeom_BSplineSurface& entity, bool along_u) {
-  SurfaceDirection direction;
-  direction.degree = along_u ? entity.DegreeU() : entity.DegreeV();
-  direction.control_points = along_u ? entity.NbPolesU() : entity.NbPolesV();
-  const int last_knot = direction.control_points;
-  for (int k = -direction.degree; k <= last_knot; ++k) {
-    direction.knots.push_back(along_u ? entity.KnotU(k) : entity.KnotV(k));
-  }
-  return direction;
-}
+/// A matrix may have a matrix of its own; more than this are a circle.
+constexpr int kMaxMatrices = 8;
+/// How far the columns of a matrix may be from orthonormal, as printed numbers are, without a warning.
+constexpr double kOrthonormal = 1e-6;
 
-std::string surface_name(const IGESGeom_BSplineSurface& entity, int directory_number) {
-  const std::string number = fmt::format("entity 128 at D{}", directory_number);
-  const Handle(TCollection_HAsciiString) label = entity.ShortLabel();
-  if (label.IsNull()) return number;
-  const std::string text = label->ToCString();
-  const std::size_t first = text.find_first_not_of(' ');
-  return first == std::string::npos ? number : fmt::format("{} ({})", number, text.substr(first));
-}
+/// Entities that place copies of others, and entities whose surface is only partly used.
+constexpr int kInstanceTypes[] = {408, 412, 414, 430};
+constexpr int kTrimmedTypes[] = {143, 144};
 
-NurbsSurface read_surface(const IGESGeom_BSplineSurface& entity, const IgesSurfaceRange& range, double mm) {
-  NurbsSurface surface;
-  surface.name = surface_name(entity, range.directory_number);
-  surface.u = read_direction(entity, true);
-  surface.v = read_direction(entity, false);
-  // From the text: OpenCASCADE 7.6 takes V0 for U1 and U1 for V0.
-  surface.u.start = range.start_u;
-  surface.u.end = range.end_u;
-  surface.v.start = range.start_v;
-  surface.v.end = range.end_v;
-  const gp_GTrsf location = entity.CompoundLocation();
-  for (int i = 0; i < surface.u.control_points; ++i) {
-    for (int j = 0; j < surface.v.control_points; ++j) {
-      gp_XYZ point = entity.Pole(i, j).XYZ();
-      if (entity.HasTransf()) location.Transforms(point);
-      surface.control_points.emplace_back(mm * point.X(), mm * point.Y(), mm * point.Z());
-      surface.weights.push_back(entity.Weight(i, j));
-    }
-  }
-  return surface;
-}
-
-std::string list_types(const IgesContents& contents) {
+std::string list_types(const std::map<int, int>& counts) {
   std::string list;
-  for (const auto& [type, count] : contents.type_counts) {
-    list += fmt::format("{}{} x {}", list.empty() ? "" : ", ", count, type);
-  }
+  for (const auto& [type, count] : counts) list += fmt::format("{}{} x {}", list.empty() ? "" : ", ", count, type);
   return list.empty() ? "none" : list;
 }
 
 /// Refuses what would stand somewhere else than its coordinates say, and tells what is used otherwise than drawn.
-void check_contents(const IgesContents& contents, DesignFile& design, const std::string& file) {
-  if (contents.surfaces.empty()) {
+void check_types(const IgesText& text, DesignFile& design, const std::string& file) {
+  std::map<int, int> counts;
+  for (const IgesEntity& entity : text.entities) ++counts[entity.type];
+  if (counts.count(kIgesSurfaceType) == 0) {
     throw DesignError(
         fmt::format("{}: no B-spline surface (entity 128) in the file; entity types there: {}; export the "
                     "blade as B-spline surfaces",
-                    file, list_types(contents)));
+                    file, list_types(counts)));
   }
-  for (const int instance : {408, 412, 414, 430}) {
-    if (contents.type_counts.count(instance) > 0) {
-      throw DesignError(
-          fmt::format("{}: entity {} places copies of other entities, which is not supported; export the "
-                      "blade alone, without instances",
-                      file, instance));
-    }
+  for (const int type : kInstanceTypes) {
+    if (counts.count(type) == 0) continue;
+    throw DesignError(
+        fmt::format("{}: entity {} places copies of other entities, which is not supported; export the "
+                    "blade alone, without instances",
+                    file, type));
   }
-  for (const int trimmed : {143, 144}) {
-    if (contents.type_counts.count(trimmed) > 0) {
-      design.warnings.push_back(
-          fmt::format("trimmed surfaces (entity {}) are used whole, as if they were not trimmed", trimmed));
-    }
+  for (const int type : kTrimmedTypes) {
+    if (counts.count(type) == 0) continue;
+    design.warnings.push_back(
+        fmt::format("trimmed surfaces (entity {}) are used whole, as if they were not trimmed", type));
   }
 }
 
-DesignFile read_model(const std::string& file, const IgesContents& contents) {
-  IGESControl_Reader reader;
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
-    throw DesignError(fmt::format("{}: the IGES file cannot be parsed; export the design again", file));
-  }
-  const Handle(IGESData_IGESModel) model = reader.IGESModel();
-  DesignFile design;
-  design.unit = shown_unit(contents.global.unit);
-  design.warnings = contents.global.warnings;
-  const double mm = contents.global.unit.mm / contents.global.model_scale;
-  check_contents(contents, design, file);
-  for (const IgesSurfaceRange& range : contents.surfaces) {
-    const int number = (range.directory_number + 1) / 2;
-    const auto entity = number > model->NbEntities() ? Handle(IGESGeom_BSplineSurface)()
-                                                     : Handle(IGESGeom_BSplineSurface)::DownCast(model->Entity(number));
-    if (entity.IsNull()) {
+/// The motion of `entity`: its matrix, then that of the matrix, and so on.
+Eigen::Affine3d read_motion(const IgesText& text, const IgesEntity& entity, const IgesDelimiters& delimiters,
+                            DesignFile& design, const std::string& file) {
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  int number = entity.matrix;
+  for (int count = 0; number != 0; ++count) {
+    const std::size_t place = static_cast<std::size_t>(number) / 2;
+    const bool exists = number > 0 && number % 2 == 1 && place < text.entities.size();
+    if (!exists || text.entities[place].type != kIgesMatrixType || count == kMaxMatrices) {
       throw DesignError(
-          fmt::format("{}: entity 128 at D{} cannot be parsed; export the design again", file, range.directory_number));
+          fmt::format("{}: entity 128 at D{}: its transformation matrix D{} is not an entity 124; export "
+                      "the design again",
+                      file, entity.directory_number, number));
     }
-    design.surfaces.push_back(read_surface(*entity, range, mm));
+    const Eigen::Affine3d matrix = read_iges_matrix(IgesParameters(text.entities[place], delimiters, file));
+    const Eigen::Matrix3d product = matrix.linear() * matrix.linear().transpose();
+    if ((product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > kOrthonormal) {
+      design.warnings.push_back(fmt::format("the matrix at D{} is not a rotation; it is used as it stands", number));
+    }
+    motion = matrix * motion;
+    number = text.entities[place].matrix;
   }
-  return design;
+  return motion;
+}
+
+NurbsSurface read_surface(const IgesText& text, const IgesEntity& entity, const IgesGlobal& global, DesignFile& design,
+                          const std::string& file) {
+  NurbsSurface surface = read_iges_surface(IgesParameters(entity, global.delimiters, file));
+  surface.name = fmt::format("entity 128 at D{}", entity.directory_number);
+  if (!entity.label.empty()) surface.name += fmt::format(" ({})", entity.label);
+  if (entity.matrix != 0) {
+    const Eigen::Affine3d motion = read_motion(text, entity, global.delimiters, design, file);
+    for (Eigen::Vector3d& point : surface.control_points) point = motion * point;
+  }
+  const double mm = global.unit.mm / global.model_scale;
+  for (Eigen::Vector3d& point : surface.control_points) point *= mm;
+  return surface;
 }
 
 }  // namespace
 
 DesignFile read_iges(const std::filesystem::path& path) {
   const std::string file = path.string();
-  const IgesContents contents = check_iges_text(read_text(path), file);
-  return with_cad_library(file, [&] { return read_model(file, contents); });
+  const std::string content = read_text(path);
+  const IgesText text = split_iges_text(content, file);
+  const IgesGlobal global = read_iges_global(text.global, file);
+  DesignFile design;
+  design.unit = shown_unit(global.unit);
+  design.warnings = global.warnings;
+  check_types(text, design, file);
+  for (const IgesEntity& entity : text.entities) {
+    if (entity.type != kIgesSurfaceType) continue;
+    design.surfaces.push_back(read_surface(text, entity, global, design, file));
+  }
+  return design;
 }
 
 }  // namespace bladefit

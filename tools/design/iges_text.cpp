@@ -59,20 +59,18 @@ struct Sections {
 };
 
 void check_record(const Sections& sections, std::string_view line, std::size_t number) {
+  const bool lettered = line.size() > kSectionColumn && kSections.find(line[kSectionColumn]) != std::string_view::npos;
+  if (number == 1 && !lettered) {
+    throw DesignError(
+        fmt::format("{}: not an IGES file: line 1 has no section letter in column 73; give an IGES (.igs, "
+                    ".iges) or STEP (.stp, .step) file",
+                    sections.file));
+  }
+  if (!lettered) sections.fail(number, "the record is truncated: no section letter S, G, D, P or T in column 73");
+  if (number == 1 && line[kSectionColumn] != 'S') sections.fail(number, "the start section S is missing");
   if (line.size() > kColumns && !trimmed(line.substr(kColumns)).empty()) {
     sections.fail(number, fmt::format("{} columns where an IGES record has 80", line.size()));
   }
-  const bool first = number == 1;
-  if (line.size() <= kSectionColumn || kSections.find(line[kSectionColumn]) == std::string_view::npos) {
-    if (first) {
-      throw DesignError(
-          fmt::format("{}: not an IGES file: line 1 has no section letter in column 73; give an IGES "
-                      "(.igs, .iges) or STEP (.stp, .step) file",
-                      sections.file));
-    }
-    sections.fail(number, "the record is truncated: no section letter S, G, D, P or T in column 73");
-  }
-  if (first && line[kSectionColumn] != 'S') sections.fail(number, "the start section S is missing");
 }
 
 Sections split_sections(const std::vector<std::string_view>& lines, const std::string& file) {
@@ -113,26 +111,37 @@ void check_terminate(const Sections& sections, std::size_t line_count) {
   }
 }
 
-/// The parameter records of the directory entry whose first record is `entry`.
-IgesParameters find_parameters(const Sections& sections, std::size_t entry) {
+void read_entity(const Sections& sections, std::size_t entry, IgesEntity& entity) {
   const Section& directory = sections.of('D');
   const Section& parameters = sections.of('P');
+  const std::string_view first_record = directory.records[entry];
+  const std::string_view second_record = directory.records[entry + 1];
   const std::size_t line = directory.first_line + entry;
-  const auto first = parse_integer(directory.records[entry].substr(8, 8));
-  const auto count = parse_integer(directory.records[entry + 1].substr(24, 8));
+  entity.type = iges_integer(first_record.substr(0, 8), sections.file, line);
+  entity.directory_number = static_cast<int>(entry) + 1;
+  entity.matrix = iges_integer(first_record.substr(48, 8), sections.file, line);
+  entity.label = trimmed(second_record.substr(56, 8));
+  const int first = iges_integer(first_record.substr(8, 8), sections.file, line);
+  const int count = iges_integer(second_record.substr(24, 8), sections.file, line + 1);
   const auto available = static_cast<int>(parameters.records.size());
-  if (!first || !count || *first < 1 || *count < 1 || *first > available || *count > available - *first + 1) {
+  if (first < 1 || count < 1 || first > available || count > available - first + 1) {
     sections.fail(line, "the directory entry points outside the parameter records");
   }
-  const auto begin = parameters.records.begin() + (*first - 1);
-  return {static_cast<int>(entry) + 1,
-          parameters.first_line + static_cast<std::size_t>(*first) - 1,
-          {begin, begin + *count}};
+  const auto begin = parameters.records.begin() + (first - 1);
+  entity.first_line = parameters.first_line + static_cast<std::size_t>(first) - 1;
+  entity.parameters.assign(begin, begin + count);
 }
 
 }  // namespace
 
-IgesContents check_iges_text(std::string_view text, const std::string& file) {
+int iges_integer(std::string_view field, const std::string& file, std::size_t line) {
+  if (trimmed(field).empty()) return 0;
+  if (const std::optional<int> value = parse_integer(field)) return *value;
+  throw DesignError(
+      fmt::format("{}: line {}: \"{}\" is not a whole number; export the design again", file, line, trimmed(field)));
+}
+
+IgesText split_iges_text(std::string_view text, const std::string& file) {
   if (trimmed(text).empty()) throw DesignError(fmt::format("{}: the file is empty; export the design again", file));
   const std::vector<std::string_view> lines = split_lines(text);
   const Sections sections = split_sections(lines, file);
@@ -141,17 +150,11 @@ IgesContents check_iges_text(std::string_view text, const std::string& file) {
   if (directory.records.size() % 2 != 0) {
     sections.fail(directory.first_line, "the directory has an odd number of records");
   }
-  IgesContents contents;
-  contents.global = read_iges_global(sections.of('G').records, file);
-  for (std::size_t entry = 0; entry < directory.records.size(); entry += 2) {
-    const auto type = parse_integer(directory.records[entry].substr(0, 8));
-    if (!type) sections.fail(directory.first_line + entry, "the directory entry has no entity type");
-    const IgesParameters parameters = find_parameters(sections, entry);
-    ++contents.type_counts[*type];
-    if (*type != kIgesSurfaceType) continue;
-    contents.surfaces.push_back(check_iges_surface(parameters, contents.global.delimiters, file));
-  }
-  return contents;
+  IgesText parts;
+  parts.global = sections.of('G').records;
+  parts.entities.resize(directory.records.size() / 2);
+  for (std::size_t k = 0; k < parts.entities.size(); ++k) read_entity(sections, 2 * k, parts.entities[k]);
+  return parts;
 }
 
 }  // namespace bladefit

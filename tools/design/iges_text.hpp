@@ -1,24 +1,35 @@
 #pragma once
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tools/design/iges_global_text.hpp"
-#include "tools/design/iges_surface_text.hpp"
-
 namespace bladefit {
 
-/// What the text of an IGES file says it holds.
-struct IgesContents {
-  IgesGlobal global;
-  std::vector<IgesSurfaceRange> surfaces;  ///< the entities 128, in the order of the file
-  std::map<int, int> type_counts;          ///< number of entities of each type
+/// One entity of an IGES file as its directory entry describes it.
+struct IgesEntity {
+  int type = 0;
+  int directory_number = 0;                  ///< of its directory entry, counted from 1
+  int matrix = 0;                            ///< directory number of its transformation matrix (entity 124), or 0
+  std::string label;                         ///< without blanks; may be empty
+  std::size_t first_line = 0;                ///< line of the file of the first parameter record, counted from 1
+  std::vector<std::string_view> parameters;  ///< its parameter records, of which columns 1 to 64 count
 };
 
-/// Checks the text of an IGES file before a library parses it: records of 80 columns numbered without gap, the sections
-/// S, G, D, P and T with the counts of the T record, directory entries that point to existing parameter records, and
-/// entities 128 with as many well-formed numbers as their counts ask for. Throws DesignError naming the line.
-IgesContents check_iges_text(std::string_view text, const std::string& file);
+/// An IGES file taken apart into records; views into its text.
+struct IgesText {
+  std::vector<std::string_view> global;  ///< records of the global section, 72 columns each
+  std::vector<IgesEntity> entities;  ///< in the order of the directory: number k of them has directory number 2 k - 1
+};
+
+/// Takes the text of an IGES file apart after checking its frame: records of 80 columns numbered without gap, the
+/// sections S, G, D, P and T with the counts of the T record, and directory entries that point to existing parameter
+/// records. Throws DesignError naming the line.
+IgesText split_iges_text(std::string_view text, const std::string& file);
+
+/// A whole number with blanks around it, as directory fields are. A blank field is 0. Throws DesignError naming the
+/// line for anything else.
+int iges_integer(std::string_view field, const std::string& file, std::size_t line);
 
 }  // namespace bladefit

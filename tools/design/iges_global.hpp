@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/design/iges_surface_text.hpp"
+#include "tools/design/iges_parameters.hpp"
 #include "tools/design/length_unit.hpp"
 
 namespace bladefit {

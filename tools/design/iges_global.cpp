@@ -1,4 +1,4 @@
-#include "tools/design/iges_global_text.hpp"
+#include "tools/design/iges_global.hpp"
 
 #include <fmt/format.h>
 
@@ -128,19 +128,14 @@ LengthUnit read_unit(const std::string& flag_text, const std::string& name, Iges
   return {unit.mm, unit.name};
 }
 
-double read_scale(std::string text, const std::string& file) {
+double read_scale(const std::string& text, const std::string& file) {
   if (text.empty()) return 1.0;
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
-  double scale = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), scale);
-  if (error != std::errc() || stop != text.data() + text.size() || !(scale > 0 && scale < 1e9)) {
-    throw DesignError(
-        fmt::format("{}: global section: model space scale \"{}\" in field 13 is not a number above 0; "
-                    "export the design at scale 1",
-                    file, text));
-  }
-  return scale;
+  const std::optional<double> scale = parse_iges_real(text);
+  if (scale && *scale > 0) return *scale;
+  throw DesignError(
+      fmt::format("{}: global section: model space scale \"{}\" in field 13 is not a number above 0; "
+                  "export the design at scale 1",
+                  file, text));
 }
 
 }  // namespace
