@@ -88,6 +88,10 @@ void sum_net(const double* net, const Basis& bu, const Basis& bv, std::uint32_t 
 
 /// Restricts one control polygon of n + 1 points, `stride` apart, to [t0, t1].
 void restrict_polygon(Homogeneous* points, std::uint32_t n, std::uint32_t stride, double t0, double t1) {
+  if (t0 >= 1.0) {
+    for (std::uint32_t i = 0; i < n; ++i) points[i * stride] = points[n * stride];
+    return;
+  }
   // Right part of the cut at t0, then left part of the cut at the image of t1.
   for (std::uint32_t k = n; t0 > 0.0 && k > 0; --k) {
     for (std::uint32_t i = 0; i < k; ++i)

@@ -6,11 +6,11 @@
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kMaxProductOrder = 2 * kMaxDegree + 1;
+constexpr std::size_t kBinomialRows = 2 * kMaxDegree + 1;
 
 constexpr auto make_binomials() {
-  std::array<std::array<double, kMaxProductOrder>, kMaxProductOrder> table{};
-  for (std::size_t n = 0; n < kMaxProductOrder; ++n) {
+  std::array<std::array<double, kBinomialRows>, kBinomialRows> table{};
+  for (std::size_t n = 0; n < kBinomialRows; ++n) {
     table[n][0] = 1.0;
     for (std::size_t k = 1; k <= n; ++k) table[n][k] = table[n - 1][k - 1] + (k < n ? table[n - 1][k] : 0.0);
   }
@@ -18,16 +18,63 @@ constexpr auto make_binomials() {
 }
 constexpr auto kBinomial = make_binomials();
 
-/// Bernstein coefficients of a scalar polynomial of degree (m, n), row by row in u.
-struct ScalarNet {
-  std::uint32_t m, n;
-  std::array<double, kMaxProductOrder * kMaxProductOrder> c;
-  [[nodiscard]] double at(std::uint32_t k, std::uint32_t l) const { return c[k * (n + 1) + l]; }
+struct Range {
+  double least = INFINITY, most = -INFINITY;
+  void add(double x) {
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  void scale(double factor) {
+    least *= factor;
+    most *= factor;
+  }
 };
+
+/// Extreme second differences, scaled to bounds of the second derivatives.
+struct HessianRange {
+  Range uu, uv, vv;
+};
+
+/// Sylvester's criterion in the worst case of the ranges.
+bool strictly_convex(const HessianRange& h, PieceShape shape) {
+  if (!shape.along_u) return !shape.along_v || h.vv.least > 0.0;
+  if (!shape.along_v) return h.uu.least > 0.0;
+  const double uv = std::max(std::abs(h.uv.least), std::abs(h.uv.most));
+  return h.uu.least > 0.0 && h.vv.least > 0.0 && h.uu.least * h.vv.least > uv * uv * (1.0 + 1e-9);
+}
+
+/// A second derivative or the determinant is negative everywhere.
+bool nowhere_convex(const HessianRange& h, PieceShape shape) {
+  if ((shape.along_u && h.uu.most < 0.0) || (shape.along_v && h.vv.most < 0.0)) return true;
+  if (!shape.along_u || !shape.along_v) return false;
+  const double uv = h.uv.least > 0.0 ? h.uv.least : h.uv.most < 0.0 ? -h.uv.most : 0.0;
+  return uv * uv > h.uu.most * h.vv.most * (1.0 + 1e-9);
+}
+
+}  // namespace
+
+DistanceRange distance_range(const BezierNet& net, const Vec3& r) {
+  const std::uint32_t count = (net.degree_u + 1) * (net.degree_v + 1);
+  const auto offset = [&](const Homogeneous& h) { return Vec3(Vec3(h.head<3>()) / h[3] - r); };
+  const Vec3 middle = 0.25 * (offset(net.at(0, 0)) + offset(net.at(0, net.degree_v)) + offset(net.at(net.degree_u, 0)) +
+                              offset(net.at(net.degree_u, net.degree_v)));
+  DistanceRange range;
+  range.middle = middle.norm();
+  const Vec3 direction = range.middle > 0.0 ? Vec3(middle / range.middle) : Vec3(Vec3::Zero());
+  double least = INFINITY, most = 0.0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Vec3 x = offset(net.points[k]);
+    least = std::min(least, direction.dot(x));
+    most = std::max(most, x.squaredNorm());
+  }
+  range.least = std::max(0.0, least);
+  range.most = std::sqrt(most);
+  return range;
+}
 
 /// Net scaled with the binomials, moved to the origin r; the fourth component is bound * w.
 template <std::uint32_t DegreeU, std::uint32_t DegreeV>
-void square_net(const BezierNet& net, const Vec3& r, double bound, ScalarNet& g) {
+void DistanceForm::square(const BezierNet& net, const Vec3& r, double bound) {
   const std::uint32_t p = DegreeU != 0 ? DegreeU : net.degree_u, q = DegreeV != 0 ? DegreeV : net.degree_v;
   std::array<Homogeneous, kMaxOrder * kMaxOrder> a;
   const Homogeneous origin(r[0], r[1], r[2], 1.0 - bound);
@@ -37,14 +84,14 @@ void square_net(const BezierNet& net, const Vec3& r, double bound, ScalarNet& g)
       a[i * (q + 1) + j] = (kBinomial[p][i] * kBinomial[q][j]) * (point - point[3] * origin);
     }
   }
-  g.m = 2 * p;
-  g.n = 2 * q;
+  m_ = 2 * p;
+  n_ = 2 * q;
   const std::uint32_t columns = 2 * q + 1;
-  std::fill_n(g.c.begin(), (2 * p + 1) * columns, 0.0);
+  std::fill_n(c_.begin(), (2 * p + 1) * columns, 0.0);
   for (std::uint32_t i = 0; i <= p; ++i) {
     for (std::uint32_t k = i; k <= p; ++k) {
       const double twice = k > i ? 2.0 : 1.0;
-      double* row = &g.c[(i + k) * columns];
+      double* row = &c_[(i + k) * columns];
       for (std::uint32_t j = 0; j <= q; ++j) {
         Homogeneous left = twice * a[i * (q + 1) + j];
         left[3] = -left[3];
@@ -52,66 +99,58 @@ void square_net(const BezierNet& net, const Vec3& r, double bound, ScalarNet& g)
       }
     }
   }
-  for (std::uint32_t k = 0; k <= g.m; ++k) {
-    for (std::uint32_t l = 0; l <= g.n; ++l) g.c[k * columns + l] /= kBinomial[g.m][k] * kBinomial[g.n][l];
+  for (std::uint32_t k = 0; k <= m_; ++k) {
+    for (std::uint32_t l = 0; l <= n_; ++l) c_[k * columns + l] /= kBinomial[m_][k] * kBinomial[n_][l];
   }
 }
 
-/// Sylvester's criterion from the extreme second differences of the coefficients.
-bool strictly_convex(const ScalarNet& g) {
-  double least_uu = INFINITY, least_vv = INFINITY, most_uv = 0.0;
-  const auto m = static_cast<double>(g.m), n = static_cast<double>(g.n);
-  for (std::uint32_t k = 0; k + 2 <= g.m; ++k) {
-    for (std::uint32_t l = 0; l <= g.n; ++l)
-      least_uu = std::min(least_uu, g.at(k, l) - 2.0 * g.at(k + 1, l) + g.at(k + 2, l));
-  }
-  if (!(least_uu > 0.0)) return false;
-  for (std::uint32_t k = 0; k <= g.m; ++k) {
-    for (std::uint32_t l = 0; l + 2 <= g.n; ++l)
-      least_vv = std::min(least_vv, g.at(k, l) - 2.0 * g.at(k, l + 1) + g.at(k, l + 2));
-  }
-  if (!(least_vv > 0.0)) return false;
-  for (std::uint32_t k = 0; k + 1 <= g.m; ++k) {
-    for (std::uint32_t l = 0; l + 1 <= g.n; ++l)
-      most_uv = std::max(most_uv, std::abs(g.at(k + 1, l + 1) - g.at(k, l + 1) - g.at(k + 1, l) + g.at(k, l)));
-  }
-  return m * (m - 1.0) * least_uu * n * (n - 1.0) * least_vv > m * m * n * n * most_uv * most_uv * (1.0 + 1e-9);
-}
-
-}  // namespace
-
-bool beyond_plane(const BezierNet& net, const Vec3& r, double bound) {
-  const std::uint32_t count = (net.degree_u + 1) * (net.degree_v + 1);
-  const Homogeneous origin(r[0], r[1], r[2], 0.0);
-  Homogeneous middle =
-      net.at(0, 0) + net.at(0, net.degree_v) + net.at(net.degree_u, 0) + net.at(net.degree_u, net.degree_v);
-  middle -= middle[3] * origin;
-  const double length = std::sqrt(middle.head<3>().square().sum());
-  if (!(length > 0.0)) return false;
-  Homogeneous direction = middle / length;
-  direction[3] = -(bound + (direction * origin).sum());
-  for (std::uint32_t k = 0; k < count; ++k) {
-    if ((direction * net.points[k]).sum() < 0.0) return false;
-  }
-  return true;
-}
-
-DistanceCertificate certify_distance(const BezierNet& net, const Vec3& r, double bound, double tolerance) {
-  ScalarNet g;
+DistanceForm::DistanceForm(const BezierNet& net, const Vec3& r, double bound) {
   if (net.degree_u == 3 && net.degree_v == 3) {
-    square_net<3, 3>(net, r, bound, g);
+    square<3, 3>(net, r, bound);
   } else {
-    square_net<0, 0>(net, r, bound, g);
+    square<0, 0>(net, r, bound);
   }
-  const std::uint32_t count = (g.m + 1) * (g.n + 1);
-  const double least = *std::min_element(g.c.begin(), g.c.begin() + count);
-  double least_weight = INFINITY;
+  least_weight_ = INFINITY;
   for (std::uint32_t k = 0; k < (net.degree_u + 1) * (net.degree_v + 1); ++k)
-    least_weight = std::min(least_weight, net.points[k][3]);
-  DistanceCertificate certificate;
-  certificate.farther = least >= -tolerance * least_weight * least_weight;
-  certificate.convex = !certificate.farther && strictly_convex(g);
-  return certificate;
+    least_weight_ = std::min(least_weight_, net.points[k][3]);
+  size_ = std::abs(at(0, 0)) + std::abs(at(m_, n_)) + bound * bound;
+}
+
+bool DistanceForm::farther(double tolerance) const {
+  const double least = *std::min_element(c_.begin(), c_.begin() + (m_ + 1) * (n_ + 1));
+  return least >= -tolerance * least_weight_ * least_weight_;
+}
+
+/// Sign that all differences of neighbouring coefficients share, with a margin for rounding; 0 = none.
+int DistanceForm::common_sign(std::uint32_t step_u, std::uint32_t step_v) const {
+  Range range;
+  for (std::uint32_t k = 0; k + step_u <= m_; ++k) {
+    for (std::uint32_t l = 0; l + step_v <= n_; ++l) range.add(at(k + step_u, l + step_v) - at(k, l));
+  }
+  const double margin = 1e-14 * size_;
+  if (range.least > margin) return 1;
+  return range.most < -margin ? -1 : 0;
+}
+
+MinimumProof DistanceForm::proof(PieceShape shape) const {
+  MinimumProof proof;
+  if (shape.along_u) proof.monotone_u = common_sign(1, 0);
+  if (shape.along_v) proof.monotone_v = common_sign(0, 1);
+  HessianRange h;
+  for (std::uint32_t k = 0; k <= m_; ++k) {
+    for (std::uint32_t l = 0; l <= n_; ++l) {
+      if (k + 2 <= m_) h.uu.add(at(k, l) - 2.0 * at(k + 1, l) + at(k + 2, l));
+      if (l + 2 <= n_) h.vv.add(at(k, l) - 2.0 * at(k, l + 1) + at(k, l + 2));
+      if (k + 1 <= m_ && l + 1 <= n_) h.uv.add(at(k + 1, l + 1) - at(k, l + 1) - at(k + 1, l) + at(k, l));
+    }
+  }
+  const auto m = static_cast<double>(m_), n = static_cast<double>(n_);
+  h.uu.scale(m * (m - 1.0));
+  h.vv.scale(n * (n - 1.0));
+  h.uv.scale(m * n);
+  proof.convex = strictly_convex(h, shape);
+  proof.no_minimum = nowhere_convex(h, shape);
+  return proof;
 }
 
 }  // namespace bladefit

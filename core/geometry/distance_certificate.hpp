@@ -4,19 +4,52 @@
 
 namespace bladefit {
 
-/// What the control net of a piece of surface proves about its distance from a point.
-struct DistanceCertificate {
-  bool farther = false;  ///< no point of the piece is nearer than the bound
-  bool convex = false;   ///< g = w^2 (distance^2 - bound^2) is strictly convex over the piece's parameters
+/// Directions in which a piece has an extent: an edge of a patch has one, a corner none.
+struct PieceShape {
+  bool along_u = true, along_v = true;
 };
 
-/// Cheap test: is the whole net beyond the plane at `bound` [mm] across the direction from r to its middle?
-[[nodiscard]] bool beyond_plane(const BezierNet& net, const Vec3& r, double bound);
+/// Distances [mm] between which the whole piece lies, from a plane across the direction from r to its middle and from
+/// the farthest control point. Cost: two four-vector products a control point.
+struct DistanceRange {
+  double least = 0, middle = 0, most = 0;  ///< middle: of the mean of the four corners
+};
+[[nodiscard]] DistanceRange distance_range(const BezierNet& net, const Vec3& r);
 
-/// Tests the Bernstein coefficients of g(u, v) = |A - w r|^2 - (bound w)^2, a polynomial of twice the degree: none
-/// below -tolerance: nothing is nearer than the bound; second differences definite: g is convex, so a point that
-/// satisfies the first-order conditions on the piece is its only minimum there.
-/// `tolerance` [mm^2]. Cost: (order_u order_v)^2 / 2 four-vector products, about 140 for a bicubic net.
-[[nodiscard]] DistanceCertificate certify_distance(const BezierNet& net, const Vec3& r, double bound, double tolerance);
+/// What the Bernstein coefficients of a distance form prove about its minima on the piece.
+struct MinimumProof {
+  int monotone_u = 0;  ///< +1 (-1): it rises (falls) with u everywhere; 0 = not proven
+  int monotone_v = 0;
+  bool no_minimum = false;  ///< its Hessian is nowhere positive semidefinite: no local minimum inside
+  bool convex = false;      ///< it is strictly convex
+};
+
+/// g(u, v) = |A - w r|^2 - (bound w)^2 = w^2 (distance^2 - bound^2) of a piece of surface, a polynomial of twice the
+/// degree in Bernstein form.
+/// Where g is convex, a point at distance `bound` that satisfies the first-order conditions is the nearest of the
+/// piece. With weights that are not all equal, a local minimum of the distance at D is a stationary point of the g with
+/// bound D: its coefficients are linear in D^2, so what is proven at two bounds holds at all between them.
+class DistanceForm {
+ public:
+  /// Cost: (order_u order_v)^2 / 2 four-vector products, about 140 for a bicubic net.
+  DistanceForm(const BezierNet& net, const Vec3& r, double bound);
+
+  /// No point of the piece is nearer than the bound: no coefficient is below -tolerance [mm^2].
+  [[nodiscard]] bool farther(double tolerance) const;
+
+  /// Cost: about 10 operations a coefficient.
+  [[nodiscard]] MinimumProof proof(PieceShape shape) const;
+
+ private:
+  static constexpr std::size_t kMaxProductOrder = 2 * kMaxDegree + 1;
+  [[nodiscard]] double at(std::uint32_t k, std::uint32_t l) const { return c_[k * (n_ + 1) + l]; }
+  template <std::uint32_t DegreeU, std::uint32_t DegreeV>
+  void square(const BezierNet& net, const Vec3& r, double bound);
+  [[nodiscard]] int common_sign(std::uint32_t step_u, std::uint32_t step_v) const;
+
+  std::uint32_t m_ = 0, n_ = 0;  ///< degrees of g
+  double least_weight_ = 0, size_ = 0;
+  std::array<double, kMaxProductOrder * kMaxProductOrder> c_;
+};
 
 }  // namespace bladefit

@@ -27,7 +27,11 @@ double box_distance(const ImageNode& node, const Vec3& r) {
 struct Piece {
   LocalRect rect;
   std::uint32_t cuts = 0;
+  [[nodiscard]] PieceShape shape() const { return {rect.s_min < rect.s_max, rect.t_min < rect.t_max}; }
 };
+
+/// What is to be done with a piece.
+enum class Fate : std::uint8_t { settled, cut, shrunk };
 
 class Search {
  public:
@@ -105,50 +109,85 @@ class Search {
 
   void search_span(std::uint32_t span) {
     if (averted(surface_.span(span))) return;
-    if (!found_) consider(project_local(surface_, query_.point, middle(span, {})));
     const ImagePatch& patch = surface_.patch_of(span);
+    BezierNet net;
+    restrict_net(surface_.net(span), patch.degree_u, patch.degree_v, {}, net);
+    const DistanceRange range = distance_range(net, query_.point);
+    if (found_ && range.least >= best_distance_ - slack_) return;
+    // A good best early spares most of the proof.
+    if (!found_ || range.middle < best_distance_) consider(project_local(surface_, query_.point, middle(span, {})));
     std::array<Piece, kMaxCuts + 2> stack;
     std::size_t size = 0;
     stack[size++] = {};
-    BezierNet net;
     while (size > 0) {
       if (++result_.pieces > kMaxPieces) {
         exhausted_ = true;
         return;
       }
-      const Piece piece = stack[--size];
+      Piece& piece = stack[size - 1];
       restrict_net(surface_.net(span), patch.degree_u, patch.degree_v, piece.rect, net);
-      if (settled(span, piece, net)) continue;
+      const Fate fate = examine(span, piece, net);
+      if (fate == Fate::shrunk) continue;
+      --size;
+      if (fate == Fate::settled) continue;
       if (piece.cuts >= kMaxCuts) {
         exhausted_ = true;
         continue;
       }
-      cut(net, piece, stack[size], stack[size + 1]);
+      cut(net, Piece(piece), stack[size], stack[size + 1]);
       size += 2;
     }
   }
 
-  /// True where nothing in the piece can better the best, or its only minimum was found and considered.
-  bool settled(std::uint32_t span, const Piece& piece, const BezierNet& net) {
-    if (found_ && beyond_plane(net, query_.point, best_distance_ - slack_)) return true;
-    const DistanceCertificate certificate = certificate_at(net, found_ ? best_distance_ : 0.0);
-    if (found_ && certificate.farther) return true;
-    if (!certificate.convex) return false;
+  /// settled: nothing in the piece can better the best, or its only minimum was found and considered. shrunk: the piece
+  /// was reduced to the edge of the patch on which its minimum lies.
+  Fate examine(std::uint32_t span, Piece& piece, const BezierNet& net) {
+    const DistanceRange range = distance_range(net, query_.point);
+    if (found_ && range.least >= best_distance_ - slack_) return Fate::settled;
+    const double bound = found_ ? std::min(best_distance_, range.most) : range.most;
+    const DistanceForm form(net, query_.point, bound);
+    if (found_ && bound == best_distance_ && form.farther(slack_ * (2.0 * bound + slack_))) return Fate::settled;
+    MinimumProof proof = form.proof(piece.shape());
+    if (surface_.patch_of(span).rational != 0)
+      proof = common(proof, DistanceForm(net, query_.point, range.least).proof(piece.shape()));
 
     const ParameterLimits limits = limits_of(span, piece.rect);
+    if (proof.no_minimum && inside_patch(limits, piece.shape())) return Fate::settled;
+    if (falls_out(limits, proof)) return Fate::settled;
+    if (shrink(piece.rect, proof)) return Fate::shrunk;
+    if (!proof.convex) return Fate::cut;
     const Projection least = project_local(surface_, query_.point, start_in(span, limits, piece.rect), limits);
-    if (!least.converged) return false;
-    // For rational pieces convexity depends on the bound: the proof needs it at the distance of the minimum itself.
-    const double distance = std::sqrt(least.distance_squared());
-    const bool same_bound = found_ && std::abs(distance - best_distance_) <= slack_;
-    if (surface_.patch_of(span).rational != 0 && !same_bound && !certificate_at(net, distance).convex) return false;
-    if (held_inside(least, limits)) return true;  // falls towards a neighbouring piece, which will find it
-    consider(least);
-    return true;
+    if (!least.converged) return Fate::cut;
+    // Held at an inner side, it falls towards a neighbouring piece, which will find it.
+    if (!held_inside(least, limits)) consider(least);
+    return Fate::settled;
   }
 
-  [[nodiscard]] DistanceCertificate certificate_at(const BezierNet& net, double bound) const {
-    return certify_distance(net, query_.point, bound, slack_ * (2.0 * bound + slack_));
+  /// What two bounds prove together.
+  static MinimumProof common(const MinimumProof& a, const MinimumProof& b) {
+    return {a.monotone_u == b.monotone_u ? a.monotone_u : 0, a.monotone_v == b.monotone_v ? a.monotone_v : 0,
+            a.no_minimum && b.no_minimum, a.convex && b.convex};
+  }
+
+  /// No end of the piece, in the directions it has, is on an edge of the patch.
+  [[nodiscard]] static bool inside_patch(const ParameterLimits& l, PieceShape shape) {
+    const bool u = !shape.along_u || (l.u_min > 0.0 && l.u_max < 1.0);
+    const bool v = !shape.along_v || (l.v_min > 0.0 && l.v_max < 1.0);
+    return u && v;
+  }
+
+  /// The distance falls everywhere towards a side that is no edge of the patch: no local minimum here.
+  [[nodiscard]] static bool falls_out(const ParameterLimits& limits, const MinimumProof& c) {
+    const bool u = (c.monotone_u > 0 && limits.u_min > 0.0) || (c.monotone_u < 0 && limits.u_max < 1.0);
+    const bool v = (c.monotone_v > 0 && limits.v_min > 0.0) || (c.monotone_v < 0 && limits.v_max < 1.0);
+    return u || v;
+  }
+
+  /// The distance falls everywhere towards an edge of the patch: only that edge is left to be searched.
+  [[nodiscard]] static bool shrink(LocalRect& rect, const MinimumProof& c) {
+    if (c.monotone_u != 0) rect.s_min = rect.s_max = c.monotone_u > 0 ? rect.s_min : rect.s_max;
+    if (c.monotone_v != 0) rect.t_min = rect.t_max = c.monotone_v > 0 ? rect.t_min : rect.t_max;
+    return c.monotone_u != 0 || c.monotone_v != 0;
   }
 
   /// Where the best foot lies in the piece's span, start from there: then one or two evaluations confirm it.
