@@ -1,0 +1,275 @@
+// The host from source to result: the same stream gives the same bits, whatever interrupts it.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <bit>
+#include <csignal>
+#include <mutex>
+
+#include "firmware_bridge/host/fit_stream.hpp"
+#include "firmware_bridge/host/journal.hpp"
+#include "tests/unit/bridge_fixtures.hpp"
+#include "tools/panel_client.hpp"
+
+namespace bladefit {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::blade;
+using testing::blade_config;
+using testing::measured_points;
+using testing::ScratchFolder;
+using testing::ScriptedSource;
+
+constexpr std::size_t kPoints = 400;
+
+HostSettings settings_for(const std::string& folder) {
+  HostSettings settings;
+  settings.localizer = blade_config();
+  settings.session_directory = folder;
+  settings.panel.port = 0;
+  settings.end_when_finished = true;
+  return settings;
+}
+
+SessionResult run_to_end(const HostSettings& settings, ProbeSource& source) {
+  Host host(settings, blade(), source, {});
+  const HostError error = host.start();
+  if (error) {
+    SessionResult failed;
+    failed.end = SessionEnd::failed;
+    failed.error = error;
+    return failed;
+  }
+  EXPECT_TRUE(host.wait_for_end(60s));
+  return host.finish();
+}
+
+void expect_same_bits(double left, double right) {
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(left), std::bit_cast<std::uint64_t>(right));
+}
+
+void expect_same_result(const SessionResult& left, const SessionResult& right) {
+  for (int entry = 0; entry < 9; ++entry) {
+    expect_same_bits(left.report.pose.rotation(entry), right.report.pose.rotation(entry));
+  }
+  for (int entry = 0; entry < 3; ++entry) {
+    expect_same_bits(left.report.pose.translation[entry], right.report.pose.translation[entry]);
+  }
+  ASSERT_EQ(left.verdicts.size(), right.verdicts.size());
+  for (std::size_t index = 0; index < left.verdicts.size(); ++index) {
+    EXPECT_EQ(left.verdicts[index].sequence, right.verdicts[index].sequence);
+    EXPECT_EQ(left.verdicts[index].state, right.verdicts[index].state);
+    expect_same_bits(left.verdicts[index].foot.distance, right.verdicts[index].foot.distance);
+    expect_same_bits(left.verdicts[index].foot.u, right.verdicts[index].foot.u);
+  }
+}
+
+SessionResult clean_session() {
+  const ScratchFolder folder;
+  ScriptedSource source(measured_points(kPoints), 5);
+  return run_to_end(settings_for(folder / "session"), source);
+}
+
+TEST(BridgeHost, JudgesEveryPointAcknowledgesItAndConverges) {
+  const ScratchFolder folder;
+  ScriptedSource source(measured_points(kPoints));
+  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  ASSERT_FALSE(result.error) << result.error.message;
+  EXPECT_EQ(result.end, SessionEnd::finished);
+  EXPECT_EQ(result.report.status, FitStatus::converged);
+  EXPECT_EQ(result.points.size(), kPoints);
+  EXPECT_EQ(result.verdicts.size(), kPoints);
+  EXPECT_EQ(source.acknowledged, kPoints);
+  EXPECT_TRUE(source.closed);
+}
+
+TEST(BridgeHost, TheSameStreamInOtherPortionsGivesTheSameBits) {
+  const SessionResult clean = clean_session();
+  for (const unsigned seed : {1U, 77U, 4000U}) {
+    const ScratchFolder folder;
+    ScriptedSource source(measured_points(kPoints), seed);
+    expect_same_result(run_to_end(settings_for(folder / "session"), source), clean);
+  }
+}
+
+TEST(BridgeHost, AResumedSessionEndsWithTheSameBits) {
+  const SessionResult clean = clean_session();
+  const ScratchFolder folder;
+  HostSettings settings = settings_for(folder / "session");
+  for (const std::size_t cut : {3U, 150U, 151U, 399U}) {
+    settings.idle = 150ms;
+    ScriptedSource source(measured_points(kPoints));
+    source.stop_after = cut;
+    const SessionResult partial = run_to_end(settings, source);
+    EXPECT_EQ(partial.end, SessionEnd::idle);
+    EXPECT_EQ(partial.points.size(), cut);
+    EXPECT_EQ(source.acknowledged, cut);
+  }
+  settings.idle = 0ms;
+  ScriptedSource rest(measured_points(kPoints));
+  expect_same_result(run_to_end(settings, rest), clean);
+  EXPECT_EQ(rest.opened_after, 399U);
+  ScriptedSource nothing_new(measured_points(kPoints));
+  expect_same_result(run_to_end(settings, nothing_new), clean);
+  EXPECT_EQ(nothing_new.opened_after, kPoints);
+}
+
+TEST(BridgeHost, AJournalTornAnywhereEndsWithTheSameBits) {
+  const SessionResult clean = clean_session();
+  const ScratchFolder folder;
+  const HostSettings settings = settings_for(folder / "session");
+  {
+    ScriptedSource source(measured_points(kPoints));
+    ASSERT_FALSE(run_to_end(settings, source).error);
+  }
+  const std::string whole = testing::read_bytes_of(journal_path(settings.session_directory));
+  for (const std::size_t size : {std::size_t{10}, sizeof(JournalHeader), sizeof(JournalHeader) + 40, whole.size() / 2,
+                                 whole.size() - 80, whole.size() - 1}) {
+    testing::write_bytes_to(journal_path(settings.session_directory), whole.substr(0, size));
+    ScriptedSource source(measured_points(kPoints));
+    expect_same_result(run_to_end(settings, source), clean);
+    EXPECT_TRUE(testing::read_bytes_of(journal_path(settings.session_directory)) == whole) << size;
+  }
+}
+
+TEST(BridgeHost, RefusesASessionOfOtherSettingsOrAnotherRun) {
+  const ScratchFolder folder;
+  HostSettings settings = settings_for(folder / "session");
+  ScriptedSource source(measured_points(50));
+  ASSERT_FALSE(run_to_end(settings, source).error);
+  HostSettings other = settings;
+  other.localizer.tolerance.leading_edge_mm = 0.11;
+  ScriptedSource again(measured_points(50));
+  EXPECT_EQ(run_to_end(other, again).error.fault, Fault::bad_input);
+  ScriptedSource another_run(measured_points(50));
+  another_run.run_id = 8;
+  const SessionResult refused = run_to_end(settings, another_run);
+  EXPECT_EQ(refused.error.fault, Fault::bad_input);
+  EXPECT_NE(refused.error.message.find("run 8"), std::string::npos) << refused.error.message;
+}
+
+TEST(BridgeHost, ASourceThatCannotBeOpenedLeavesNothingBehind) {
+  const ScratchFolder folder;
+  ScriptedSource source(measured_points(10));
+  source.refusal = "the cable is out; put it in";
+  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  EXPECT_EQ(result.error.fault, Fault::device);
+  EXPECT_EQ(result.error.message, source.refusal);
+  EXPECT_EQ(result.end, SessionEnd::failed);
+}
+
+TEST(BridgeHost, AFullDiskIsAFaultAndNothingUnstoredIsAcknowledged) {
+  const ScratchFolder folder;
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{sizeof(JournalHeader) + 100 * sizeof(JournalRecord) + 30, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  ScriptedSource source(measured_points(kPoints));
+  const HostSettings settings = settings_for(folder / "session");
+  const SessionResult result = run_to_end(settings, source);
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(result.end, SessionEnd::failed);
+  EXPECT_EQ(result.error.fault, Fault::device);
+  EXPECT_NE(result.error.message.find("journal.bin"), std::string::npos);
+  EXPECT_LE(source.acknowledged, 100U);
+  EXPECT_GE(result.points.size(), source.acknowledged);
+  ScriptedSource rest(measured_points(kPoints));
+  expect_same_result(run_to_end(settings, rest), clean_session());
+}
+
+TEST(BridgeHost, ARecordThatIsNoNumberIsRefusedAndTheRestIsUnchanged) {
+  std::vector<ProbePoint> points = measured_points(60);
+  points[30].position[1] = std::numeric_limits<double>::quiet_NaN();
+  const ScratchFolder folder;
+  ScriptedSource source(points);
+  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  EXPECT_EQ(result.refused, 1U);
+  EXPECT_EQ(result.points.size(), 59U);
+}
+
+TEST(BridgeHost, ARunThatRestartsItsNumbersIsAFault) {
+  const ScratchFolder folder;
+  ScriptedSource source(measured_points(50));
+  source.stop_after = 20;
+  HostSettings settings = settings_for(folder / "session");
+  Host host(settings, blade(), source, {});
+  ASSERT_FALSE(host.start());
+  EXPECT_FALSE(host.wait_for_end(200ms));
+  host.request_stop();
+  ASSERT_TRUE(host.wait_for_end(10s));
+  EXPECT_EQ(host.finish().end, SessionEnd::stopped);
+}
+
+/// Reads the panel until `wanted` holds.
+template <typename Condition>
+bool panel_shows(std::uint16_t port, PanelState& state, Condition wanted) {
+  PanelClient client("127.0.0.1", port);
+  const auto deadline = std::chrono::steady_clock::now() + 20s;
+  while (std::chrono::steady_clock::now() < deadline) {
+    if (client.read(state).empty() && wanted(state)) return true;
+    std::this_thread::sleep_for(5ms);
+  }
+  return false;
+}
+
+TEST(BridgeHost, ThePanelShowsTheSession) {
+  const ScratchFolder folder;
+  HostSettings settings = settings_for(folder / "session");
+  settings.end_when_finished = false;
+  ScriptedSource source(measured_points(kPoints));
+  Host host(settings, blade(), source, {});
+  ASSERT_FALSE(host.start());
+  PanelState state;
+  ASSERT_TRUE(panel_shows(host.panel_port(), state, [](const PanelState& shown) {
+    return shown.points == kPoints && shown.session == SessionState::settled;
+  }));
+  host.request_stop();
+  ASSERT_TRUE(host.wait_for_end(10s));
+  const SessionResult result = host.finish();
+  EXPECT_EQ(state.leading_edge_out, result.report.leading_edge.judged_out);
+  EXPECT_EQ(state.rest_out, result.report.rest.judged_out);
+  EXPECT_EQ(state.rms, static_cast<float>(result.report.rms_mm));
+  EXPECT_EQ(state.worst_leading_edge_sequence, result.report.leading_edge.worst_sequence);
+  EXPECT_EQ(state.last_sequence, kPoints);
+  EXPECT_EQ(state.determined, 6);
+  EXPECT_GT(state.push_latency_us, 0.0F);
+  for (const PanelPlace& place : state.newest) {
+    if (place.sequence == 0) continue;
+    const Verdict& verdict = result.verdicts.at(place.sequence - 1);
+    EXPECT_EQ(verdict.state, PointState::out);
+    EXPECT_EQ(place.distance, static_cast<float>(verdict.foot.distance));
+    EXPECT_EQ(place.action, verdict.action);
+    EXPECT_GT(place.radius, 20.0F);
+  }
+}
+
+TEST(BridgeFitStream, ResetForgetsEverything) {
+  const LocalizerConfig config = blade_config();
+  std::vector<std::byte> memory(Localizer::memory_required(config) + 64);
+  void* start = memory.data();
+  std::size_t space = memory.size();
+  std::align(64, Localizer::memory_required(config), start, space);
+  Localizer* localizer = nullptr;
+  ASSERT_EQ(Localizer::create({static_cast<std::byte*>(start), space}, blade(), config, localizer), Status::ok);
+  FitStream stream(*localizer, 2048);
+  const auto feed = [&stream] {
+    Verdict verdict;
+    for (const ProbePoint& point : measured_points(100)) {
+      EXPECT_TRUE(stream.push(point, verdict));
+      stream.end_path();
+    }
+    EXPECT_FALSE(stream.push(measured_points(100).back(), verdict)) << "a number that came before";
+    stream.settle();
+  };
+  feed();
+  const FitReport first = localizer->fit();
+  stream.reset();
+  EXPECT_EQ(localizer->fit().points, 0U);
+  feed();
+  expect_same_bits(localizer->fit().rms_mm, first.rms_mm);
+}
+
+}  // namespace
+}  // namespace bladefit
