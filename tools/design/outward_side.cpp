@@ -14,17 +14,18 @@ namespace bladefit {
 namespace {
 
 /// Facets a patch is divided into, in each direction, at least; spans with more knots get one a span.
-constexpr std::size_t kFacets = 48;
-/// Points from which the winding number is taken, over all patches.
+constexpr std::size_t kFacets = 32;
+/// Points from which the winding number is taken.
 constexpr std::size_t kSamples = 160;
 /// From where on a winding number counts as "enclosed". An open sheet has 0, a closed body 1/2.
 constexpr double kEnclosed = 0.3;
 /// Part of the area that must agree.
 constexpr double kMajority = 0.8;
+/// Where both sides have this part of the area, patches contradict each other.
+constexpr double kContradiction = 0.2;
 
 struct Facet {
   Eigen::Vector3d a, b, c;
-  std::size_t patch;
 
   [[nodiscard]] Eigen::Vector3d centre() const { return (a + b + c) / 3; }
   [[nodiscard]] double area() const { return (b - a).cross(c - a).norm() / 2; }
@@ -73,7 +74,7 @@ std::vector<double> facet_parameters(const std::vector<double>& breaks) {
   return parameters;
 }
 
-void append_facets(const BezierPatch& patch, std::size_t number, std::vector<Facet>& facets) {
+void append_facets(const BezierPatch& patch, std::vector<Facet>& facets) {
   const std::vector<double> us = facet_parameters(patch.breaks_u);
   const std::vector<double> vs = facet_parameters(patch.breaks_v);
   std::vector<Eigen::Vector3d> points;
@@ -83,8 +84,8 @@ void append_facets(const BezierPatch& patch, std::size_t number, std::vector<Fac
   const auto at = [&](std::size_t i, std::size_t j) { return points[i * vs.size() + j]; };
   for (std::size_t i = 0; i + 1 < us.size(); ++i) {
     for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-      facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), number});
-      facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1), number});
+      facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
 }
@@ -103,30 +104,28 @@ double winding(const Facet& facet, const Eigen::Vector3d& point) {
   return 2 * std::atan2(volume, denominator) / (4 * std::numbers::pi);
 }
 
-/// Sums over sampled facets, each counted with its area.
+/// Area of the sampled facets, and of those from which the set's winding number is clearly positive or negative.
 struct Votes {
-  double area = 0, outward = 0, inward = 0, sum = 0;
-
-  [[nodiscard]] double mean() const { return sum / area; }
+  double area = 0, outward = 0, inward = 0;
 };
 
-/// The winding number of all facets, seen from the middle of every `stride`-th one, by patch. A facet adds nothing at
-/// its own middle, so that the sum is the mean of both sides.
-std::vector<Votes> collect_votes(const std::vector<Facet>& facets, std::size_t patches) {
-  std::vector<Votes> votes(patches);
-  const std::size_t stride = std::max<std::size_t>(1, facets.size() / kSamples) | 1U;  // odd: both halves of the cells
-  for (std::size_t k = 0; k < facets.size(); k += stride) {
+/// The winding number of all facets, seen from the middles of some of them. A facet adds nothing at its own middle, so
+/// that the number is the mean of both sides. The golden section spreads the samples evenly without falling into step
+/// with the rows of the grid.
+Votes collect_votes(const std::vector<Facet>& facets) {
+  Votes votes;
+  for (std::size_t sample = 1; sample <= kSamples; ++sample) {
+    const double place = std::fmod(static_cast<double>(sample) / std::numbers::phi, 1.0);
+    const auto k = static_cast<std::size_t>(place * static_cast<double>(facets.size()));
     const Eigen::Vector3d centre = facets[k].centre();
     double number = 0;
     for (std::size_t other = 0; other < facets.size(); ++other) {
       if (other != k) number += winding(facets[other], centre);
     }
-    Votes& vote = votes[facets[k].patch];
     const double area = facets[k].area();
-    vote.area += area;
-    vote.sum += area * number;
-    if (number > kEnclosed) vote.outward += area;
-    if (number < -kEnclosed) vote.inward += area;
+    votes.area += area;
+    if (number > kEnclosed) votes.outward += area;
+    if (number < -kEnclosed) votes.inward += area;
   }
   return votes;
 }
@@ -135,24 +134,17 @@ std::vector<Votes> collect_votes(const std::vector<Facet>& facets, std::size_t p
 
 OutwardSide find_outward_side(const std::vector<NurbsSurface>& surfaces, const std::string& file) {
   std::vector<Facet> facets;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) append_facets(extract_bezier(surfaces[k]), k, facets);
-  const std::vector<Votes> votes = collect_votes(facets, surfaces.size());
-  Votes all;
-  for (const Votes& vote : votes) {
-    all.area += vote.area;
-    all.outward += vote.outward;
-    all.inward += vote.inward;
+  for (const NurbsSurface& surface : surfaces) append_facets(extract_bezier(surface), facets);
+  const Votes votes = collect_votes(facets);
+  const double majority = std::max(votes.outward, votes.inward);
+  if (majority >= kMajority * votes.area) {
+    const bool plus = votes.outward > votes.inward;
+    return {plus ? 1 : -1,
+            fmt::format("the surface closes around the material: from {:.0f} % of its area it is seen all around, and "
+                        "{}Su x Sv points out",
+                        100 * majority / votes.area, plus ? "" : "-")};
   }
-  if (all.outward >= kMajority * all.area || all.inward >= kMajority * all.area) {
-    const bool plus = all.outward > all.inward;
-    const double part = (plus ? all.outward : all.inward) / all.area;
-    return {
-        plus ? 1 : -1,
-        fmt::format("the surface closes around the material: seen from {:.0f} % of its area, {} Su x Sv points away "
-                    "from it",
-                    100 * part, plus ? "+" : "-")};
-  }
-  if (all.outward + all.inward >= kMajority * all.area) {
+  if (std::min(votes.outward, votes.inward) >= kContradiction * votes.area) {
     throw DesignError(
         fmt::format("{}: the patches' normals do not all point to the same side of the material; reverse "
                     "the wrong ones in the CAD system",
