@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kRequestSize = 8;   ///< bytes of a read request
 constexpr std::size_t kEnvelopeSize = 3;  ///< unit and CRC
+constexpr int kLargestUnit = 247;
 constexpr std::size_t kDrainLimit = std::size_t{1} << 16U;
 constexpr std::chrono::microseconds kLeastPause{1750};  ///< between frames at 19200 baud and more
 
@@ -49,6 +50,9 @@ std::string RtuLink::prepare() {
     return fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings_.line.baud);
   }
   const ModbusSettings& modbus = settings_.modbus;
+  if (modbus.unit < 1 || modbus.unit > kLargestUnit) {
+    return fmt::format("unit {} is no address on a serial line; set unit to 1..{}", modbus.unit, kLargestUnit);
+  }
   ModbusRequest longest;
   const int records = modbus.batch * modbus.map.record_size;
   longest.count = static_cast<std::uint16_t>(

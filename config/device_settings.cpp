@@ -1,0 +1,155 @@
+#include "config/device_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "config/map_table.hpp"
+#include "config/table_reader.hpp"
+#include "drivers/modbus/cmm_header.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr double kMmPerInch = 25.4;
+constexpr NumberRange kPause{1, 600000};  ///< [ms]
+
+void read_units(TableReader& table, double& mm_per_unit) {
+  table.read_choice<double>("units", mm_per_unit, {{"mm", 1.0}, {"in", kMmPerInch}});
+}
+
+void read_reconnect(TableReader& table, std::chrono::milliseconds& first, std::chrono::milliseconds& longest) {
+  table.read_ms("reconnect_first_ms", first, kPause);
+  table.read_ms("reconnect_longest_ms", longest, kPause);
+  if (first > longest) table.fail("reconnect_longest_ms", "must not be below reconnect_first_ms");
+}
+
+void read_tcp(TableReader table, TcpSettings& tcp) {
+  table.read("host", tcp.host);
+  table.read_whole("port", tcp.port, {1, 65535});
+  table.finish();
+}
+
+void read_line(TableReader table, SerialLineSettings& line) {
+  table.read("device", line.device);
+  table.read_whole("baud", line.baud, {1200, 4000000});
+  table.read_whole("data_bits", line.data_bits, {7, 8});
+  table.read_choice<Parity>("parity", line.parity,
+                            {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}});
+  table.read_whole("stop_bits", line.stop_bits, {1, 2});
+  table.read("low_latency", line.low_latency);
+  table.finish();
+}
+
+void read_modbus(TableReader table, ModbusSettings& modbus) {
+  table.read_whole("unit", modbus.unit, {1, 255});
+  table.read_whole("batch", modbus.batch, {1, 125});
+  table.read_ms("poll_period_ms", modbus.poll_period, {0.1, 60000});
+  table.read_ms("reply_timeout_ms", modbus.reply_timeout, {1, 60000});
+  table.read_ms("connect_timeout_ms", modbus.connect_timeout, {1, 60000});
+  read_reconnect(table, modbus.reconnect_first, modbus.reconnect_longest);
+  table.read_ms("quiet_ms", modbus.quiet, {0, 60000});
+  table.read_whole("timeouts_to_reconnect", modbus.timeouts_to_reconnect, {1, 1000});
+  table.read_whole("record_tries", modbus.record_tries, {2, 1000000});
+  table.read("echo", modbus.echo);
+  table.finish();
+}
+
+void read_serial(TableReader table, SerialSettings& serial) {
+  table.read_ms("start_interval_ms", serial.start_interval, {10, 60000});
+  table.read_ms("resend_interval_ms", serial.resend_interval, {10, 60000});
+  table.read_ms("resend_pause_ms", serial.resend_pause, {1, 60000});
+  table.read_ms("silence_ms", serial.silence, {10, 600000});
+  table.read_ms("open_timeout_ms", serial.open_timeout, {10, 600000});
+  read_reconnect(table, serial.reconnect_first, serial.reconnect_longest);
+  table.read_whole("resend_tries", serial.resend_tries, {1, 1000000});
+  table.read("echo", serial.echo);
+  table.finish();
+}
+
+/// `order` must have each of x, y and z once.
+void check_order(TableReader& table, const std::string& order) {
+  std::string sorted = order;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted != "xyz")
+    table.fail("order", fmt::format("'{}' must have each of x, y and z once, such as \"xyz\"", order));
+}
+
+void read_dro(TableReader table, DroSettings& dro) {
+  read_units(table, dro.mm_per_unit);
+  table.read("order", dro.order);
+  check_order(table, dro.order);
+  table.read("labels", dro.labels);
+  table.read("separators", dro.separators);
+  if (dro.separators.empty()) table.fail("separators", "is empty; name at least one character, such as \" \"");
+  table.read_choice<char>("decimal_mark", dro.decimal_mark, {{".", '.'}, {",", ','}});
+  if (dro.separators.find(dro.decimal_mark) != std::string::npos) {
+    table.fail("separators", fmt::format("has the decimal mark '{}'; take it out", dro.decimal_mark));
+  }
+  table.read("ignore_prefix", dro.ignore_prefix);
+  read_reconnect(table, dro.reconnect_first, dro.reconnect_longest);
+  table.finish();
+}
+
+void read_replay(TableReader table, const std::string& path, ReplaySettings& replay) {
+  if (table.has("file")) {
+    table.read("file", replay.file);
+    replay.file = std::filesystem::path(path).parent_path() / replay.file;
+  }
+  read_units(table, replay.mm_per_unit);
+  table.finish();
+}
+
+void read_modbus_tables(TableReader& root, TomlDocument& document, SourceSettings& settings) {
+  if (auto table = root.table("tcp")) read_tcp(*table, settings.tcp);
+  if (auto table = root.table("line")) read_line(*table, settings.line);
+  if (auto table = root.table("modbus")) read_modbus(*table, settings.modbus);
+  if (auto table = root.table("map")) read_map_table(*table, settings.modbus.map);
+  if (document.error) return;
+  const std::string fault = check_map(settings.modbus.map);
+  if (!fault.empty()) root.fail("map", fault);
+}
+
+/// Only the tables of the kind are asked for, so that one of another kind is an unknown key.
+void read_tables(TableReader& root, TomlDocument& document, SourceSettings& settings) {
+  switch (settings.kind) {
+    case SourceKind::none:
+      return root.fail("kind", "is missing; set it to modbus-tcp, modbus-rtu, serial, dro or replay");
+    case SourceKind::modbus_tcp:
+    case SourceKind::modbus_rtu:
+      return read_modbus_tables(root, document, settings);
+    case SourceKind::serial:
+      if (auto table = root.table("line")) read_line(*table, settings.line);
+      if (auto table = root.table("serial")) read_serial(*table, settings.serial);
+      return;
+    case SourceKind::dro:
+      if (auto table = root.table("line")) read_line(*table, settings.line);
+      if (auto table = root.table("dro")) read_dro(*table, settings.dro);
+      return;
+    case SourceKind::replay:
+      if (auto table = root.table("replay")) read_replay(*table, document.name, settings.replay);
+      return;
+  }
+}
+
+}  // namespace
+
+ConfigError load_device(const std::string& path, SourceSettings& settings) {
+  TomlDocument document = read_toml(path);
+  if (document.error) return document.error;
+  SourceSettings read;
+  TableReader root(document, document.root, "");
+  root.read_choice<SourceKind>("kind", read.kind,
+                               {{"modbus-tcp", SourceKind::modbus_tcp},
+                                {"modbus-rtu", SourceKind::modbus_rtu},
+                                {"serial", SourceKind::serial},
+                                {"dro", SourceKind::dro},
+                                {"replay", SourceKind::replay}});
+  if (!document.error) read_tables(root, document, read);
+  root.finish();
+  if (!document.error) settings = std::move(read);
+  return document.error;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,190 @@
+#include "config/table_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+namespace bladefit {
+namespace {
+
+std::string type_name(const toml::node& node) {
+  if (node.is_string()) return "a text";
+  if (node.is_integer()) return "a whole number";
+  if (node.is_floating_point()) return "a number";
+  if (node.is_boolean()) return "true or false";
+  if (node.is_array()) return "a list";
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// Number of single-character changes between two words.
+std::size_t edit_distance(std::string_view left, std::string_view right) {
+  std::vector<std::size_t> row(right.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < right.size(); ++j) {
+      const std::size_t change = diagonal + (left[i] == right[j] ? 0U : 1U);
+      diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, change}));
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(2, word.size() / 2) + 1;
+  for (const std::string& name : names) {
+    const bool within =
+        name.size() > 2 && (word.find(name) != std::string_view::npos || name.find(word) != std::string::npos);
+    const std::size_t distance = within ? 1 : edit_distance(word, name);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = name;
+  }
+  return nearest;
+}
+
+TomlDocument read_toml(const std::string& path) {
+  TomlDocument document;
+  document.name = path;
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file) {
+    document.error.message = fmt::format("{}: {}; give a readable TOML file", path, std::strerror(errno));
+    return document;
+  }
+  try {
+    document.root = toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    document.error.message =
+        fmt::format("{}:{}: {}; correct the TOML", path, error.source().begin.line, error.description());
+  }
+  return document;
+}
+
+TableReader::TableReader(TomlDocument& document, const toml::table& table, std::string name)
+    : document_(&document), table_(&table), name_(std::move(name)) {}
+
+std::string TableReader::full_name(std::string_view key) const {
+  return name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key);
+}
+
+void TableReader::fail(std::string_view key, const std::string& what) {
+  if (document_->error) return;
+  const toml::node* node = table_->get(key);
+  const toml::source_position place = node == nullptr ? table_->source().begin : node->source().begin;
+  document_->error.message = fmt::format("{}:{}: key '{}': {}", document_->name, place.line, full_name(key), what);
+}
+
+/// The value of a key; null where it is absent or an error was found before.
+const toml::node* TableReader::find(std::string_view key) {
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
+  return good() ? table_->get(key) : nullptr;
+}
+
+bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
+
+bool TableReader::says_absent(std::string_view key) {
+  const toml::node* node = find(key);
+  return node != nullptr && node->is_boolean() && !node->as_boolean()->get();
+}
+
+bool TableReader::read_text(std::string_view key, std::string& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  if (node->is_string()) {
+    value = node->as_string()->get();
+    return true;
+  }
+  fail(key, fmt::format("must be a text in quotes, not {}", type_name(*node)));
+  return false;
+}
+
+bool TableReader::read_number(std::string_view key, double& value, NumberRange range, bool whole) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  const char* wanted = whole ? "a whole number" : "a number";
+  double number = 0;
+  if (node->is_integer()) {
+    number = static_cast<double>(node->as_integer()->get());
+  } else if (node->is_floating_point() && !whole) {
+    number = node->as_floating_point()->get();
+  } else {
+    fail(key, fmt::format("must be {}, not {}", wanted, type_name(*node)));
+    return false;
+  }
+  if (!(number >= range.low && number <= range.high)) {
+    if (range.high > 1e300) {
+      fail(key, fmt::format("{} is out of range; it must be {} of at least {}", number, wanted, range.low));
+    } else {
+      fail(key, fmt::format("{} is out of range; it must be {} from {} to {}", number, wanted, range.low, range.high));
+    }
+    return false;
+  }
+  value = number;
+  return true;
+}
+
+void TableReader::read(std::string_view key, bool& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_boolean()) return fail(key, fmt::format("must be true or false, not {}", type_name(*node)));
+  value = node->as_boolean()->get();
+}
+
+void TableReader::read(std::string_view key, std::string& value) { static_cast<void>(read_text(key, value)); }
+
+void TableReader::read(std::string_view key, std::vector<std::string>& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_array()) return fail(key, fmt::format("must be a list of texts, not {}", type_name(*node)));
+  std::vector<std::string> texts;
+  for (const toml::node& item : *node->as_array()) {
+    if (!item.is_string()) return fail(key, fmt::format("must be a list of texts; one of them is {}", type_name(item)));
+    texts.push_back(item.as_string()->get());
+  }
+  value = std::move(texts);
+}
+
+void TableReader::read(std::string_view key, double& value, NumberRange range) {
+  double number = 0;
+  if (read_number(key, number, range, false)) value = number;
+}
+
+std::optional<TableReader> TableReader::table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::nullopt;
+  if (node->is_table()) return TableReader(*document_, *node->as_table(), full_name(key));
+  fail(key, fmt::format("must be a table, not {}", type_name(*node)));
+  return std::nullopt;
+}
+
+void TableReader::finish() {
+  if (!good()) return;
+  for (const auto& [key, node] : *table_) {
+    const std::string_view word = key.str();
+    if (std::find(asked_.begin(), asked_.end(), word) != asked_.end()) continue;
+    const std::string nearest = nearest_name(word, asked_);
+    const std::string mend = nearest.empty() ? "known keys: " + joined(asked_) : "did you mean '" + nearest + "'?";
+    document_->error.message =
+        fmt::format("{}:{}: unknown key '{}'; {}", document_->name, key.source().begin.line, full_name(word), mend);
+    return;
+  }
+}
+
+}  // namespace bladefit
