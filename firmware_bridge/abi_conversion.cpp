@@ -1,5 +1,6 @@
 #include "firmware_bridge/abi_conversion.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>

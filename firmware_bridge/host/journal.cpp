@@ -47,6 +47,10 @@ HostError Journal::open(const std::string& path) {
                                           "with --session",
                                           path)};
   }
+  // What the file holds is not ours to remove, even when this session is refused.
+  const off_t size = lseek(descriptor_, 0, SEEK_END);
+  if (size < 0) return failure("its size cannot be read");
+  size_ = static_cast<std::uint64_t>(size);
   locked_ = true;
   return {};
 }
