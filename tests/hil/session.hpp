@@ -38,7 +38,7 @@ inline std::string source_of(Link link, const std::string& address) {
 inline std::vector<std::string> run_options(const std::string& source, const std::string& session,
                                             const std::string& json, const std::vector<std::string>& more = {}) {
   return std::vector<std::string>{BLADEFIT_COMMAND, "run", "--design", kBlade, "--source", source} +
-         std::vector<std::string>{"--leading-edge", "u:0.4:0.6", "--tolerance", "0.1", "--ratio", "2"} +
+         std::vector<std::string>{"--leading-edge", "u:0.4:0.6", "--tolerance", "0.05", "--ratio", "2"} +
          std::vector<std::string>{"--session", session, "--panel", "127.0.0.1:0", "--json", json} + more;
 }
 
