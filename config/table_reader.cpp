@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <numeric>
+
+#include "drivers/read_file.hpp"
 
 namespace bladefit {
 namespace {
+
+constexpr std::size_t kMaxFileSize = std::size_t{1} << 20U;
 
 std::string type_name(const toml::node& node) {
   if (node.is_string()) return "a text";
@@ -62,10 +62,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 TomlDocument read_toml(const std::string& path) {
   TomlDocument document;
   document.name = path;
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) {
-    document.error.message = fmt::format("{}: {}; give a readable TOML file", path, std::strerror(errno));
+  std::string text;
+  if (const std::string fault = read_file(path, kMaxFileSize, text); !fault.empty()) {
+    document.error.message = fmt::format("{}: {}; give a readable TOML file", path, fault);
     return document;
   }
   try {

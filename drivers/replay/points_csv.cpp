@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "drivers/direction.hpp"
+#include "drivers/read_file.hpp"
 #include "drivers/text_number.hpp"
 
 namespace bladefit {
@@ -180,16 +177,9 @@ PointsFile parse_points_csv(std::string_view text, std::string_view name, double
 }
 
 PointsFile read_points_csv(const std::string& path, double mm_per_unit) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!stream) return failed(fmt::format("{}: {}; give a readable CSV file of points", path, std::strerror(errno)));
   std::string text;
-  std::array<char, 65536> block{};
-  while (const std::size_t count = std::fread(block.data(), 1, block.size(), stream.get())) {
-    if (text.size() + count > kMaxFileSize) return failed(fmt::format("{}: larger than 1 GiB; split the file", path));
-    text.append(block.data(), count);
-  }
-  if (std::ferror(stream.get()) != 0)
-    return failed(fmt::format("{}: {}; give a readable CSV file of points", path, std::strerror(errno)));
+  const std::string fault = read_file(path, kMaxFileSize, text);
+  if (!fault.empty()) return failed(fmt::format("{}: {}; give a readable CSV file of points", path, fault));
   return parse_points_csv(text, path, mm_per_unit);
 }
 
