@@ -21,12 +21,16 @@ std::string test_name(const testing::TestParamInfo<Link>& tested) {
 
 class RunSession : public testing::TestWithParam<Link> {};
 
-TEST_P(RunSession, AgreesWithTheIndependentTruth) {
+void expect_agreement(const std::string& result, const std::string& truth) {
   const Scratch scratch;
-  const std::string clean = clean_result(GetParam(), kFewPoints);
-  std::ofstream(scratch / "result.json") << clean;
-  Process check({"python3", data_file("check.py"), data_file("dtmb4119/truth/200.json"), scratch / "result.json"});
+  std::ofstream(scratch / "result.json") << result;
+  Process check({"python3", data_file("check.py"), data_file(truth), scratch / "result.json"});
   EXPECT_EQ(check.exit_code(), 0) << check.out() << check.err();
+}
+
+TEST_P(RunSession, AgreesWithTheIndependentTruth) {
+  expect_agreement(clean_result(GetParam(), kFewPoints), "dtmb4119/truth/200.json");
+  expect_agreement(clean_result(GetParam(), kAllPoints), "dtmb4119/truth/full.json");
 }
 
 TEST_P(RunSession, GoesOnAfterAPowerCutOfTheHost) {
