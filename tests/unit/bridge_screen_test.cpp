@@ -90,6 +90,12 @@ TEST(BridgeScreen, ShowsADashWhereThePanelHasNoExtension) {
   EXPECT_EQ(lines[15].find("CUT"), std::string::npos);
 }
 
+TEST(BridgeScreen, SaysThatTheHostIsSilent) {
+  ScreenView view = known_view();
+  view.connected = false;
+  EXPECT_NE(draw_screen(view, kScreenWidth, kScreenHeight)[0].find("NO ANSWER"), std::string::npos);
+}
+
 TEST(BridgeScreen, OneLineForALog) {
   const std::string line = status_line(known_view());
   EXPECT_EQ(line.find('\n'), std::string::npos);
@@ -98,7 +104,7 @@ TEST(BridgeScreen, OneLineForALog) {
   }
   ScreenView view = known_view();
   view.connected = false;
-  EXPECT_NE(status_line(view).find("no answer"), std::string::npos);
+  EXPECT_NE(status_line(view).find("NO ANSWER"), std::string::npos);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ class Page {
 };
 
 std::string link_word(const ScreenView& view) {
-  if (!view.connected) return "no answer from the host";
+  if (!view.connected) return "NO ANSWER";
   if (view.state.session == SessionState::connecting) return "link connecting";
   return (view.state.alarms & kAlarmLinkLost) != 0 ? "link LOST" : "link up";
 }
