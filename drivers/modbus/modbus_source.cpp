@@ -14,8 +14,10 @@
 namespace bladefit {
 namespace {
 
-constexpr int kHeaderTries = 3;     ///< a refused header may have been damaged on its way
-constexpr int kTimeoutsToLost = 3;  ///< missing replies in a row after which the link counts as lost
+constexpr int kOpenTransactions = 10;  ///< that many reply timeouts are granted to open()
+constexpr int kHeadersToOpen = 3;      ///< one to know the device by, two to see the run that the start has begun
+constexpr int kHeaderTries = 3;        ///< a refused header may have been damaged on its way
+constexpr int kTimeoutsToLost = 3;     ///< missing replies in a row after which the link counts as lost
 constexpr std::chrono::milliseconds kCloseTime{700};
 
 }  // namespace
@@ -43,16 +45,20 @@ SourceError ModbusSource::open(std::uint32_t after) {
   stored_ = after;
   sent_ = 0;
   refusal_.clear();
-  header_refusals_ = timeouts_ = 0;
+  header_refusals_ = timeouts_ = headers_ = 0;
   if (const std::string fault = check_map(settings_.modbus.map); !fault.empty()) return open_error(fault);
   if (const std::string fault = link_->prepare(); !fault.empty()) return open_error(fault);
   opening_ = true;
+  connected_ = false;
   purpose_ = Purpose::none;
   stage_ = Stage::connecting;
   link_->start_connect();
-  while (stage_ != Stage::running) {
+  const Clock::time_point deadline =
+      Clock::now() + settings_.modbus.connect_timeout + kOpenTransactions * settings_.modbus.reply_timeout;
+  while (stage_ != Stage::running || headers_ < kHeadersToOpen) {
     step(Clock::now() + settings_.modbus.reply_timeout);
-    if (stage_ == Stage::down) return open_error(status_.last_fault);
+    const bool never_connected = stage_ == Stage::down && !connected_;
+    if (never_connected || Clock::now() > deadline) return open_error(status_.last_fault);
     if (!refusal_.empty()) return open_error(refusal_);
     if (timeouts_ >= kHeaderTries) {
       return open_error(
@@ -99,7 +105,8 @@ void ModbusSource::reconnect(Clock::time_point until) {
   const LinkEvent event = link_->connect(until);
   if (event == LinkEvent::broken) link_lost(link_->fault());
   if (event != LinkEvent::done) return;
-  if (!opening_) ++status_.reconnects;
+  if (connected_) ++status_.reconnects;
+  connected_ = true;
   if (!link_->remark().empty()) status_.last_fault = link_->remark();
   stage_ = Stage::identify;
   header_refusals_ = timeouts_ = 0;
@@ -181,6 +188,7 @@ void ModbusSource::header_read() {
   const std::string refusal = check_header(header, settings_.modbus.map);
   if (refusal.empty()) {
     header_refusals_ = 0;
+    headers_ = std::min(headers_ + 1, kHeadersToOpen);
     note_good(status_);
     if (stage_ == Stage::identify) identify(header);
     ring_.observe(header);

@@ -18,7 +18,7 @@ class ModbusSource final : public ProbeSource {
   explicit ModbusSource(const SourceSettings& settings);
   ~ModbusSource() override;
 
-  /// Takes at most about the connect timeout and three reply timeouts.
+  /// Takes at most about the connect timeout and ten reply timeouts. A link that breaks meanwhile is made again.
   [[nodiscard]] SourceError open(std::uint32_t after) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t sequence) override;
@@ -66,6 +66,8 @@ class ModbusSource final : public ProbeSource {
   std::uint32_t sending_ = 0;       ///< of the acknowledge under way
   std::uint16_t next_command_ = 0;  ///< to be given when the acknowledge is through; 0 = none
   bool opening_ = false;
+  bool connected_ = false;   ///< a link was made since open()
+  int headers_ = 0;          ///< good ones since open(), as far as open() counts them
   int header_refusals_ = 0;  ///< headers in a row that check_header() refused
   int timeouts_ = 0;         ///< in a row
   std::string refusal_;      ///< why the device cannot be read; empty = it can

@@ -33,7 +33,7 @@ SourceError SerialSource::open(std::uint32_t after) {
     return {fmt::format("{}: {}", name_, fault)};
   link_made();
   const Clock::time_point deadline = Clock::now() + settings_.serial.open_timeout;
-  while (!session_.running() && port_.is_open() && Clock::now() < deadline) step(deadline);
+  while (!session_.running() && Clock::now() < deadline) step(deadline);
   if (session_.running()) return {};
   const std::string fault = port_.is_open()
                                 ? "the device does not answer $START; switch it on, or correct baud and parity"
