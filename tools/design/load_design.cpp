@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstring>
+#include <span>
 
 #include "tools/design/design_file.hpp"
 #include "tools/design/image_writer.hpp"
@@ -18,8 +17,8 @@ std::string side_note(int sign, const std::string& reason) {
 LoadedDesign load_image(const std::filesystem::path& path, OutwardOption outward) {
   const std::string bytes = read_text(path);
   LoadedDesign design;
-  design.image.resize(bytes.size());
-  std::memcpy(design.image.data(), bytes.data(), bytes.size());
+  const auto content = std::as_bytes(std::span(bytes));
+  design.image.assign(content.begin(), content.end());
   DesignImage view;
   if (const Status status = DesignImage::open(design.image, view); status != Status::ok) {
     throw DesignError(fmt::format("{}: not a usable design image: {}; compile the design again", path.string(),
