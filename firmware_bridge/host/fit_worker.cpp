@@ -1,5 +1,6 @@
 #include "firmware_bridge/host/fit_worker.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace bladefit {
@@ -42,6 +43,7 @@ void FitWorker::judge(const StreamEvent& event) {
     case EventKind::reset:
       stream_.reset();
       stored_sequences_.clear();
+      listed_.fill(0);
       publish({true, {}});
       break;
   }
@@ -62,6 +64,12 @@ void FitWorker::judge_point(const ProbePoint& point) {
 }
 
 void FitWorker::publish(const FitOutput& output) {
+  const Verdict& verdict = output.verdict;
+  const bool listed = verdict.state == PointState::out && verdict.region == Region::leading_edge;
+  if (listed && std::ranges::find(listed_, verdict.sequence) == listed_.end()) {
+    listed_[listed_next_] = verdict.sequence;
+    listed_next_ = (listed_next_ + 1) % listed_.size();
+  }
   while (!shared_.to_publication.push(output)) {
     shared_.publication_wakeup.signal();
     shared_.fit_wakeup.wait(kRoomWait);
@@ -90,7 +98,16 @@ void FitWorker::settle() {
   shared_.publication_wakeup.signal();
 }
 
+// The distances in the panel's list follow the fit also while the verdicts stay the same.
+void FitWorker::publish_listed() {
+  Verdict verdict;
+  for (const std::uint32_t sequence : listed_) {
+    if (sequence != 0 && stream_.localizer().verdict_of(sequence, verdict) == Status::ok) publish({false, verdict});
+  }
+}
+
 void FitWorker::publish_figures() {
+  publish_listed();
   constexpr double kPercentile = 0.99;
   shared_.fit_figures.publish({stream_.localizer().fit(), latency_.quantile_us(kPercentile)});
   events_since_figures_ = 0;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,12 +29,16 @@ class FitWorker {
   void publish_revisions();
   void settle();
   void publish_figures();
+  void publish_listed();
 
   FitStream stream_;
   HostShared& shared_;
   LatencyHistogram latency_;
   std::vector<std::uint32_t> stored_sequences_;  // never grows beyond what was reserved
   std::uint32_t events_since_figures_ = 0;
+  // The leading-edge points that were told as out last: those that panels list.
+  std::array<std::uint32_t, 16> listed_{};
+  std::size_t listed_next_ = 0;
 };
 
 }  // namespace bladefit
