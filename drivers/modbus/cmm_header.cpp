@@ -38,6 +38,52 @@ std::array<NamedField, 10> record_fields(const CmmMap& map) {
            {"crc", &map.crc}}};
 }
 
+/// Registers from `first` to before `end`.
+struct Extent {
+  std::uint32_t first = kRegisters;
+  std::uint32_t end = 0;
+};
+
+/// Those of every present header field, of which there is at least one: newest.
+Extent header_extent(const CmmMap& map) {
+  Extent extent;
+  for (const NumberField* field : header_fields(map)) {
+    if (!field->present) continue;
+    extent.first = std::min<std::uint32_t>(extent.first, field->address);
+    extent.end = std::max<std::uint32_t>(extent.end, field->address + register_count(field->type));
+  }
+  return extent;
+}
+
+std::string check_header_place(const CmmMap& map) {
+  const Extent extent = header_extent(map);
+  if (extent.end > kRegisters) return "a header field ends beyond register 65535; correct its address";
+  const std::uint32_t count = extent.end - extent.first;
+  if (count <= MODBUS_MAX_READ_REGISTERS) return {};
+  return fmt::format("the header fields span {} registers; one read takes at most {}", count,
+                     MODBUS_MAX_READ_REGISTERS);
+}
+
+std::string check_record_fields(const CmmMap& map) {
+  if (map.record_size == 0 || map.record_size > MODBUS_MAX_READ_REGISTERS) {
+    return fmt::format("record_size is {} registers; one read takes 1..{}", map.record_size, MODBUS_MAX_READ_REGISTERS);
+  }
+  if (map.crc.present && map.crc.type != NumberType::uint16)
+    return "crc is not a uint16; CRC-16/MODBUS takes one register";
+  for (const NamedField& named : record_fields(map)) {
+    if (!named.field->present) continue;
+    if (!std::isfinite(named.field->scale) || named.field->scale == 0) {
+      return fmt::format("the scale of {} is {}; give a number other than 0", named.name, named.field->scale);
+    }
+    const std::uint32_t end = named.field->address + std::uint32_t{register_count(named.field->type)};
+    if (end > map.record_size) {
+      return fmt::format("{} ends at offset {}, beyond the {} registers of a record; correct its offset or record_size",
+                         named.name, end - 1, map.record_size);
+    }
+  }
+  return {};
+}
+
 WordOrder other(WordOrder order) {
   return order == WordOrder::high_first ? WordOrder::low_first : WordOrder::high_first;
 }
@@ -49,14 +95,8 @@ bool near(double value, double expected) {
 }  // namespace
 
 RegisterBlock header_block(const CmmMap& map) {
-  std::uint32_t first = kRegisters;
-  std::uint32_t end = 0;
-  for (const NumberField* field : header_fields(map)) {
-    if (!field->present) continue;
-    first = std::min<std::uint32_t>(first, field->address);
-    end = std::max<std::uint32_t>(end, field->address + register_count(field->type));
-  }
-  return {static_cast<std::uint16_t>(first), static_cast<std::uint16_t>(end - first)};
+  const Extent extent = header_extent(map);
+  return {static_cast<std::uint16_t>(extent.first), static_cast<std::uint16_t>(extent.end - extent.first)};
 }
 
 CmmHeader decode_header(std::span<const std::uint16_t> registers, const CmmMap& map) {
@@ -108,32 +148,6 @@ std::string check_header(const CmmHeader& header, const CmmMap& map) {
 }
 
 std::string check_map(const CmmMap& map) {
-  if (map.record_size == 0 || map.record_size > MODBUS_MAX_READ_REGISTERS) {
-    return fmt::format("record_size is {} registers; one read takes 1..{}", map.record_size, MODBUS_MAX_READ_REGISTERS);
-  }
-  std::uint32_t first = kRegisters;
-  std::uint32_t end = 0;
-  for (const NumberField* field : header_fields(map)) {
-    if (!field->present) continue;
-    first = std::min<std::uint32_t>(first, field->address);
-    end = std::max<std::uint32_t>(end, field->address + register_count(field->type));
-  }
-  if (end > kRegisters) return "a header field ends beyond register 65535; correct its address";
-  if (end - std::min(first, end) > MODBUS_MAX_READ_REGISTERS) {
-    return fmt::format("the header fields span {} registers; one read takes at most {}", end - first,
-                       MODBUS_MAX_READ_REGISTERS);
-  }
-  for (const NamedField& named : record_fields(map)) {
-    if (!named.field->present) continue;
-    if (!std::isfinite(named.field->scale) || named.field->scale == 0) {
-      return fmt::format("the scale of {} is {}; give a number other than 0", named.name, named.field->scale);
-    }
-    const std::uint32_t field_end = named.field->address + std::uint32_t{register_count(named.field->type)};
-    if (field_end > map.record_size) {
-      return fmt::format("{} ends at offset {}, beyond the {} registers of a record; correct its offset or record_size",
-                         named.name, field_end - 1, map.record_size);
-    }
-  }
   if (!map.newest.present) return "newest is missing; without it new records cannot be seen";
   if (!map.sequence.present) return "sequence is missing; without it a late reply cannot be told from a record";
   for (const NumberField& axis : map.position) {
@@ -144,7 +158,8 @@ std::string check_map(const CmmMap& map) {
     return "i, j and k must be all there or all absent";
   }
   if (!map.capacity.present && map.ring_capacity == 0) return "ring_capacity is missing; the device does not tell it";
-  return {};
+  if (std::string fault = check_header_place(map); !fault.empty()) return fault;
+  return check_record_fields(map);
 }
 
 }  // namespace bladefit

@@ -202,6 +202,9 @@ TEST(CmmMapCheck, FindsContradictions) {
   map.crc.address = 20;
   EXPECT_NE(check_map(map).find("crc ends at offset 20"), std::string::npos);
   map = {};
+  map.crc = {true, 18, NumberType::uint32, 1};
+  EXPECT_NE(check_map(map).find("crc is not a uint16"), std::string::npos);
+  map = {};
   map.run_id.address = 130;
   EXPECT_NE(check_map(map).find("span 132 registers"), std::string::npos);
   map = {};
