@@ -18,6 +18,12 @@ constexpr double kStartUncertainty = 0.01;
 constexpr double kPendingShare = 0.1;
 /// Fewer fitted points than this hide their own errors: every verdict is pending.
 constexpr std::uint32_t kLeastFitted = 12;
+/// While the pose has moved further than the tracking range [half diagonals] since the sums in use were begun, pushes
+/// refresh this many times the points: the expansions are worn out.
+constexpr double kTrackingRange = 1e-4;
+constexpr std::uint32_t kCatchUp = 8;
+/// Rivals of a foot are sought up to this much farther [half diagonals], so that it can be tracked for half as long.
+constexpr double kSearchMargin = 2e-3;
 /// Directions below this share of the largest eigenvalue are rounding.
 constexpr double kNumericalRank = 1e-13;
 
@@ -97,6 +103,7 @@ void Localizer::reset() {
   revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
   judged_out_[0] = judged_out_[1] = 0;
   stored_ = cursor_ = queue_head_ = queue_size_ = 0;
+  last_place_ = SurfacePlace();
   last_step_ = 0;
   begin_sweep();
   current_ = filling_;
@@ -110,18 +117,22 @@ Status Localizer::check(const ProbePoint& point) const {
   return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
 }
 
-Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& pose, Search search) const {
+Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& pose) const {
   Measurement m;
   m.r = apply(pose, point.position);
-  const ProjectionQuery query{m.r, pose.rotation * point.approach};
+  const ProjectionQuery query{m.r, pose.rotation * point.approach, kSearchMargin * frame_.length};
   m.projection = project_local(surface_, m.r, {point.span, point.foot.u, point.foot.v});
   const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
                         !faces_probe(surface_, m.projection, query.approach);
-  if (doubtful || search == Search::global) {
+  // A distance changes by no more than the point moves: within half its lead, the tracked foot is proven the nearest.
+  const bool far = 2.0 * (m.r - point.searched_at).norm() >= point.lead;
+  if (doubtful || far) {
     const GlobalProjection global = project_global(surface_, query, &m.projection);
     const Vec3 jump = global.nearest.at.s - m.projection.at.s;
     m.changed = !m.projection.converged || jump.norm() > 1e-8 * frame_.length;
     m.projection = global.nearest;
+    m.searched = true;
+    m.lead = global.lead;
   }
   m.foot = foot_of(surface_, m.projection, config_.probe_radius_mm);
   return m;
@@ -136,13 +147,13 @@ StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measuremen
   stored.foot.u = last_place_.u;
   stored.foot.v = last_place_.v;
   stored.outside_window = outside_window(stored);
-  measurement = measure(stored, pose_, Search::global);
+  measurement = measure(stored, pose_);
   return stored;
 }
 
 bool Localizer::outside_window(const StoredPoint& point) const {
   if (config_.window_low <= 0.0 && config_.window_high >= 1.0) return false;
-  const Foot foot = measure(point, config_.start, Search::global).foot;
+  const Foot foot = measure(point, config_.start).foot;
   const auto outside = [this](double t) { return t < config_.window_low || t > config_.window_high; };
   return outside(foot.u) || outside(foot.v);
 }
@@ -162,6 +173,9 @@ void Localizer::note(StoredPoint& point, const Measurement& m) {
   point.foot = m.foot;
   point.span = m.projection.place.span;
   point.revision = revision_;
+  if (!m.searched) return;
+  point.searched_at = m.r;
+  point.lead = m.lead;
 }
 
 StoredPoint* Localizer::store(const StoredPoint& point, const Measurement& m) {
@@ -186,12 +200,13 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   Measurement measurement;
   StoredPoint passing = admitted(point, measurement);
   StoredPoint* place = store(passing, measurement);
-  refresh(config_.refresh_per_push);
+  const bool worn = motion_between(current_.model.reference, pose_, frame_).norm() > kTrackingRange * frame_.length;
+  refresh(worn ? kCatchUp * config_.refresh_per_push : config_.refresh_per_push);
   solve();
 
   StoredPoint& own = place != nullptr ? *place : passing;
   if (place == nullptr) note(passing, measurement);
-  note(own, measure(own, pose_, Search::local));
+  note(own, measure(own, pose_));
   judge(own);
   own.told_state = own.state;
   own.told_action = own.action;

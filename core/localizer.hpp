@@ -86,9 +86,9 @@ class Localizer {
   /// Takes the next verdict that a later fit has changed. False when there is none.
   [[nodiscard]] bool next_revision(Verdict& verdict);
 
-  /// Projects up to `max_points` stored points anew and moves the pose, until the fit has converged and every foot was
-  /// checked by a global search. Returns ok (converged), underdetermined (converged in the determined directions),
-  /// more_work, or iteration_cap.
+  /// Projects up to `max_points` stored points anew and moves the pose, until the fit has converged and every foot is
+  /// proven the nearest: searched globally, or moved by less than half its lead since. Returns ok (converged),
+  /// underdetermined (converged in the determined directions), more_work, or iteration_cap.
   [[nodiscard]] Status refine(std::uint32_t max_points);
 
   /// No more points will come: from here on refine() uses every direction the points determine at all, however weakly.
@@ -106,16 +106,16 @@ class Localizer {
  private:
   Localizer(const DesignImage& design, const LocalizerConfig& config);
 
-  enum class Search : std::uint8_t { local, global };
   struct Measurement {
     Projection projection;
     Foot foot;
     Vec3 r = Vec3::Zero();
-    bool changed = false;  ///< a global search found another local minimum than the one tracked
+    bool searched = false;  ///< the foot is the outcome of a global search
+    double lead = 0;        ///< of that search [mm]
+    bool changed = false;   ///< it found another local minimum than the one tracked
   };
   struct Refinement {
     bool active = false;
-    Search search = Search::local;
     std::uint32_t sweeps = 0, changed = 0;
     double last_value = 0;  ///< sum 1/2 d^2 of the sweep before
     std::uint32_t last_count = 0;
@@ -126,7 +126,7 @@ class Localizer {
   [[nodiscard]] Status check(const ProbePoint& point) const;
   [[nodiscard]] bool outside_window(const StoredPoint& point) const;
   [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const;
-  [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose, Search search) const;
+  [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose) const;
   [[nodiscard]] StoredPoint admitted(const ProbePoint& point, Measurement& measurement) const;
   StoredPoint* store(const StoredPoint& point, const Measurement& measurement);
   void note(StoredPoint& point, const Measurement& measurement);
@@ -136,7 +136,7 @@ class Localizer {
   void begin_sweep();
   void refresh(std::uint32_t budget);
   double solve();
-  void refresh_next(const Vec6& x, Search search);
+  void refresh_next(const Vec6& x);
   [[nodiscard]] bool finish_refine_sweep(Status& status);
   [[nodiscard]] bool retreat();
   [[nodiscard]] double threshold() const;

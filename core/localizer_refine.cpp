@@ -7,9 +7,8 @@ namespace bladefit {
 namespace {
 
 constexpr std::uint32_t kMaxSweeps = 100;
-/// Steps [half diagonals]: below the first the feet are checked by global search, below the second the fit has
-/// converged.
-constexpr double kCheckBelow = 1e-6;
+/// Steps [half diagonals]: a larger one must lower the sum of squares; a smaller one means convergence.
+constexpr double kCheckedAbove = 1e-6;
 constexpr double kConvergedBelow = 1e-12;
 
 }  // namespace
@@ -20,9 +19,9 @@ void Localizer::begin_sweep() {
   cursor_ = 0;
 }
 
-void Localizer::refresh_next(const Vec6& x, Search search) {
+void Localizer::refresh_next(const Vec6& x) {
   StoredPoint& point = points_[cursor_];
-  const Measurement m = measure(point, pose_, search);
+  const Measurement m = measure(point, pose_);
   if (m.changed) ++refinement_.changed;
   note(point, m);
   judge(point);
@@ -33,10 +32,7 @@ void Localizer::refresh_next(const Vec6& x, Search search) {
 
 void Localizer::refresh(std::uint32_t budget) {
   const Vec6 x = motion_between(filling_.model.reference, pose_, frame_);
-  for (std::uint32_t k = 0; k < budget && cursor_ < stored_; ++k) {
-    // One point a push is projected from nothing: a tracked foot is not trusted for ever.
-    refresh_next(x, k == 0 ? Search::global : Search::local);
-  }
+  for (std::uint32_t k = 0; k < budget && cursor_ < stored_; ++k) refresh_next(x);
   if (cursor_ < stored_) return;
   current_ = filling_;
   redetermine_ = true;
@@ -48,7 +44,7 @@ bool Localizer::retreat() {
   Refinement& r = refinement_;
   const QuadraticModel& model = current_.model;
   const bool comparable =
-      r.sweeps > 1 && model.count == r.last_count && r.last_step.norm() > kCheckBelow * frame_.length;
+      r.sweeps > 1 && model.count == r.last_count && r.last_step.norm() > kCheckedAbove * frame_.length;
   if (!comparable || model.half_square <= r.last_value * (1.0 + 1e-9)) return false;
   r.last_step *= 0.25;
   pose_ = moved(r.last_pose, r.last_step, frame_);
@@ -62,18 +58,16 @@ bool Localizer::finish_refine_sweep(Status& status) {
   current_ = filling_;
   redetermine_ = true;
   ++r.sweeps;
-  const bool checked = r.search == Search::global && r.changed == 0;
   if (!retreat()) {
     r.last_value = current_.model.half_square;
     r.last_count = current_.model.count;
     r.last_pose = pose_;
     const double step = solve();
     r.last_step = motion_between(r.last_pose, pose_, frame_);
-    if (checked && step <= kConvergedBelow * frame_.length) {
+    if (r.changed == 0 && step <= kConvergedBelow * frame_.length) {
       converged_ = determination_.rank == 6;
       status = converged_ ? Status::ok : Status::underdetermined;
     }
-    r.search = step <= kCheckBelow * frame_.length ? Search::global : Search::local;
   }
   r.changed = 0;
   if (status == Status::more_work && r.sweeps >= kMaxSweeps) status = Status::iteration_cap;
@@ -93,7 +87,7 @@ Status Localizer::refine(std::uint32_t max_points) {
   }
   Status status = Status::more_work;
   for (std::uint32_t k = 0; k < max_points; ++k) {
-    refresh_next(Vec6::Zero(), refinement_.search);
+    refresh_next(Vec6::Zero());
     if (cursor_ < stored_) continue;
     if (!finish_refine_sweep(status)) continue;
     refinement_.active = false;

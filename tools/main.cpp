@@ -16,7 +16,8 @@ constexpr int kBadInput = 2;
 
 constexpr const char* kFooter =
     "A first try:\n"
-    "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1 --json out.json\n"
+    "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1 --json "
+    "out.json\n"
     "Exit codes: 0 done, 1 the blade is out of tolerance, 2 wrong use or bad input, 3 device or I/O failure.";
 
 }  // namespace
@@ -37,7 +38,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n", error.what());
+    std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n",
+                 error.what());
     return kBadInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bladefit: %s\n", error.what());

@@ -12,6 +12,10 @@ namespace {
 
 /// Answers are proven to within this [half diagonals].
 constexpr double kSlack = 1e-10;
+/// A local minimum whose normal is this near to facing the probe [rad] may come to face it while the point is tracked.
+constexpr double kAlmostFacing = 0.05;
+/// Local minima this near to each other are one [half diagonals].
+constexpr double kSameFoot = 1e-7;
 /// Rectangles are not cut below 2^-kMaxCuts of a span.
 constexpr std::uint32_t kMaxCuts = 60;
 
@@ -42,9 +46,19 @@ class Search {
         slack_(kSlack * surface.half_diagonal()) {}
 
   void consider(const Projection& candidate) {
-    if (!candidate.converged || !faces_probe(surface_, candidate, query_.approach)) return;
+    if (!candidate.converged) return;
     const double distance = std::sqrt(candidate.distance_squared());
-    if (found_ && distance >= best_distance_) return;
+    if (directed_) {
+      const double facing = surface_.normal(candidate.place, candidate.at).dot(query_.approach);
+      if (facing >= 0.0 && facing < kAlmostFacing) rival_distance_ = std::min(rival_distance_, distance);
+      if (facing >= 0.0) return;
+    }
+    const bool same = found_ && (candidate.at.s - result_.nearest.at.s).norm() <= kSameFoot * surface_.half_diagonal();
+    if (found_ && distance >= best_distance_) {
+      if (!same) rival_distance_ = std::min(rival_distance_, distance);
+      return;
+    }
+    if (found_ && !same) rival_distance_ = best_distance_;
     result_.nearest = candidate;
     best_distance_ = distance;
     found_ = true;
@@ -62,7 +76,7 @@ class Search {
     stack[size++] = {0, box_distance(nodes[0], query_.point)};
     while (size > 0 && !exhausted_) {
       const Entry entry = stack[--size];
-      if (found_ && entry.distance >= best_distance_ - slack_) continue;
+      if (found_ && entry.distance >= reach() - slack_) continue;
       const ImageNode& node = nodes[entry.node];
       if (node.right == 0) {
         search_span(node.span);
@@ -80,16 +94,22 @@ class Search {
   [[nodiscard]] GlobalProjection result() const {
     GlobalProjection out = result_;
     out.proven = found_ && !exhausted_;
+    out.lead = out.proven ? std::max(0.0, std::min(rival_distance_, reach()) - best_distance_) : 0.0;
     return out;
   }
 
  private:
+  /// Nothing beyond this distance matters.
+  [[nodiscard]] double reach() const { return best_distance_ + query_.margin; }
+
   /// No normal of the span faces the probe.
   [[nodiscard]] bool averted(const ImageSpan& span) const {
     if (!directed_ || span.cone_cosine <= 0.0) return false;
     const double along = span.cone_axis[0] * query_.approach[0] + span.cone_axis[1] * query_.approach[1] +
                          span.cone_axis[2] * query_.approach[2];
-    return along > 0.0 && along * along >= 1.0 - span.cone_cosine * span.cone_cosine;
+    const double across = std::sqrt(std::max(0.0, 1.0 - along * along));
+    const double sine = std::sqrt(1.0 - span.cone_cosine * span.cone_cosine);
+    return along > 0.0 && along * span.cone_cosine - across * sine > kAlmostFacing;
   }
 
   [[nodiscard]] SurfacePlace middle(std::uint32_t span, const LocalRect& rect) const {
@@ -113,7 +133,7 @@ class Search {
     BezierNet net;
     restrict_net(surface_.net(span), patch.degree_u, patch.degree_v, {}, net);
     const DistanceRange range = distance_range(net, query_.point);
-    if (found_ && range.least >= best_distance_ - slack_) return;
+    if (found_ && range.least >= reach() - slack_) return;
     // A good best early spares most of the proof.
     if (!found_ || range.middle < best_distance_) consider(project_local(surface_, query_.point, middle(span, {})));
     std::array<Piece, kMaxCuts + 2> stack;
@@ -143,10 +163,10 @@ class Search {
   /// was reduced to the edge of the patch on which its minimum lies.
   Fate examine(std::uint32_t span, Piece& piece, const BezierNet& net) {
     const DistanceRange range = distance_range(net, query_.point);
-    if (found_ && range.least >= best_distance_ - slack_) return Fate::settled;
-    const double bound = found_ ? std::min(best_distance_, range.most) : range.most;
+    if (found_ && range.least >= reach() - slack_) return Fate::settled;
+    const double bound = found_ ? std::min(reach(), range.most) : range.most;
     const DistanceForm form(net, query_.point, bound);
-    if (found_ && bound == best_distance_ && form.farther(slack_ * (2.0 * bound + slack_))) return Fate::settled;
+    if (found_ && bound == reach() && form.farther(slack_ * (2.0 * bound + slack_))) return Fate::settled;
     MinimumProof proof = form.proof(piece.shape());
     if (surface_.patch_of(span).rational != 0)
       proof = common(proof, DistanceForm(net, query_.point, range.least).proof(piece.shape()));
@@ -227,6 +247,7 @@ class Search {
   bool found_ = false;
   bool exhausted_ = false;
   double best_distance_ = 0.0;
+  double rival_distance_ = INFINITY;
   GlobalProjection result_;
 };
 
@@ -247,7 +268,7 @@ bool faces_probe(const Surface& surface, const Projection& projection, const Vec
 GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
   GlobalProjection directed = search(surface, query, hint);
   if (directed.nearest.converged) return directed;
-  const ProjectionQuery undirected{query.point, Vec3::Zero()};
+  const ProjectionQuery undirected{query.point, Vec3::Zero(), query.margin};
   GlobalProjection any = search(surface, undirected, hint);
   any.proven = any.proven && directed.pieces <= kMaxPieces;
   any.pieces += directed.pieces;

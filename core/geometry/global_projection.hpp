@@ -7,12 +7,16 @@ namespace bladefit {
 struct ProjectionQuery {
   Vec3 point = Vec3::Zero();     ///< r, in design coordinates [mm]
   Vec3 approach = Vec3::Zero();  ///< unit vector from the probe to the material, in design coordinates; 0 = unknown
+  double margin = 0;             ///< rivals are sought up to this much farther than the nearest [mm]
 };
 
 struct GlobalProjection {
   Projection nearest;
-  bool proven = false;       ///< false: the cap on pieces was reached; `nearest` is the best found
-  bool faces = true;         ///< false: no local minimum faces the probe, so `nearest` is the nearest of all
+  bool proven = false;  ///< false: the cap on pieces was reached; `nearest` is the best found
+  bool faces = true;    ///< false: no local minimum faces the probe, so `nearest` is the nearest of all
+  /// No other local minimum (that faces the probe) is nearer than this much beyond the nearest; at most query.margin
+  /// [mm]. While the point moves by less than half of it, the local minimum it is tracked to stays the nearest.
+  double lead = 0;
   std::uint32_t pieces = 0;  ///< pieces of surface that were looked at
 };
 
