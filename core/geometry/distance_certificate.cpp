@@ -18,17 +18,45 @@ constexpr auto make_binomials() {
 }
 constexpr auto kBinomial = make_binomials();
 
+constexpr auto make_inverse_binomials() {
+  auto table = kBinomial;
+  for (auto& row : table) {
+    for (double& b : row) b = b > 0.0 ? 1.0 / b : 0.0;
+  }
+  return table;
+}
+constexpr auto kInverseBinomial = make_inverse_binomials();
+
 struct Range {
-  double least = INFINITY, most = -INFINITY;
-  void add(double x) {
-    least = std::min(least, x);
-    most = std::max(most, x);
-  }
-  void scale(double factor) {
-    least *= factor;
-    most *= factor;
-  }
+  double least, most;
 };
+
+/// Coefficients row by row in u; Eigen::Dynamic sizes live in place too, up to the largest degree.
+template <int Rows, int Columns>
+using Coefficients = Eigen::Array<double, Rows, Columns, Eigen::RowMajor, Rows == Eigen::Dynamic ? kBinomialRows : Rows,
+                                  Columns == Eigen::Dynamic ? kBinomialRows : Columns>;
+
+constexpr int less(int size) { return size == Eigen::Dynamic ? size : size - 1; }
+
+/// Differences of neighbours in u and in v.
+template <int R, int C>
+Coefficients<less(R), C> rise_u(const Coefficients<R, C>& c) {
+  const Eigen::Index rows = c.rows() - 1, columns = c.cols();
+  return c.template block<less(R), C>(1, 0, rows, columns) - c.template block<less(R), C>(0, 0, rows, columns);
+}
+template <int R, int C>
+Coefficients<R, less(C)> rise_v(const Coefficients<R, C>& c) {
+  const Eigen::Index rows = c.rows(), columns = c.cols() - 1;
+  return c.template block<R, less(C)>(0, 1, rows, columns) - c.template block<R, less(C)>(0, 0, rows, columns);
+}
+
+/// Extremes of the coefficients times `factor`, made wider by the rounding they may hold.
+template <int R, int C>
+Range range_of(const Coefficients<R, C>& c, double factor, double rounding) {
+  return {factor * (c.minCoeff() - rounding), factor * (c.maxCoeff() + rounding)};
+}
+
+int sign_of(const Range& range) { return range.least > 0.0 ? 1 : range.most < 0.0 ? -1 : 0; }
 
 /// Extreme second differences, scaled to bounds of the second derivatives.
 struct HessianRange {
@@ -49,6 +77,22 @@ bool nowhere_convex(const HessianRange& h, PieceShape shape) {
   if (!shape.along_u || !shape.along_v) return false;
   const double uv = h.uv.least > 0.0 ? h.uv.least : h.uv.most < 0.0 ? -h.uv.most : 0.0;
   return uv * uv > h.uu.most * h.vv.most * (1.0 + 1e-9);
+}
+
+template <int R, int C>
+MinimumProof prove(const Coefficients<R, C>& g, PieceShape shape, double rounding) {
+  const Coefficients<less(R), C> g_u = rise_u<R, C>(g);
+  const Coefficients<R, less(C)> g_v = rise_v<R, C>(g);
+  MinimumProof proof;
+  if (shape.along_u) proof.monotone_u = sign_of(range_of<less(R), C>(g_u, 1.0, rounding));
+  if (shape.along_v) proof.monotone_v = sign_of(range_of<R, less(C)>(g_v, 1.0, rounding));
+  const auto m = static_cast<double>(g.rows() - 1), n = static_cast<double>(g.cols() - 1);
+  const HessianRange h{range_of<less(less(R)), C>(rise_u<less(R), C>(g_u), m * (m - 1.0), rounding),
+                       range_of<less(R), less(C)>(rise_v<less(R), C>(g_u), m * n, rounding),
+                       range_of<R, less(less(C))>(rise_v<R, less(C)>(g_v), n * (n - 1.0), rounding)};
+  proof.convex = strictly_convex(h, shape);
+  proof.no_minimum = nowhere_convex(h, shape);
+  return proof;
 }
 
 }  // namespace
@@ -100,7 +144,7 @@ void DistanceForm::square(const BezierNet& net, const Vec3& r, double bound) {
     }
   }
   for (std::uint32_t k = 0; k <= m_; ++k) {
-    for (std::uint32_t l = 0; l <= n_; ++l) c_[k * columns + l] /= kBinomial[m_][k] * kBinomial[n_][l];
+    for (std::uint32_t l = 0; l <= n_; ++l) c_[k * columns + l] *= kInverseBinomial[m_][k] * kInverseBinomial[n_][l];
   }
 }
 
@@ -121,36 +165,11 @@ bool DistanceForm::farther(double tolerance) const {
   return least >= -tolerance * least_weight_ * least_weight_;
 }
 
-/// Sign that all differences of neighbouring coefficients share, with a margin for rounding; 0 = none.
-int DistanceForm::common_sign(std::uint32_t step_u, std::uint32_t step_v) const {
-  Range range;
-  for (std::uint32_t k = 0; k + step_u <= m_; ++k) {
-    for (std::uint32_t l = 0; l + step_v <= n_; ++l) range.add(at(k + step_u, l + step_v) - at(k, l));
-  }
-  const double margin = 1e-14 * size_;
-  if (range.least > margin) return 1;
-  return range.most < -margin ? -1 : 0;
-}
-
 MinimumProof DistanceForm::proof(PieceShape shape) const {
-  MinimumProof proof;
-  if (shape.along_u) proof.monotone_u = common_sign(1, 0);
-  if (shape.along_v) proof.monotone_v = common_sign(0, 1);
-  HessianRange h;
-  for (std::uint32_t k = 0; k <= m_; ++k) {
-    for (std::uint32_t l = 0; l <= n_; ++l) {
-      if (k + 2 <= m_) h.uu.add(at(k, l) - 2.0 * at(k + 1, l) + at(k + 2, l));
-      if (l + 2 <= n_) h.vv.add(at(k, l) - 2.0 * at(k, l + 1) + at(k, l + 2));
-      if (k + 1 <= m_ && l + 1 <= n_) h.uv.add(at(k + 1, l + 1) - at(k, l + 1) - at(k + 1, l) + at(k, l));
-    }
-  }
-  const auto m = static_cast<double>(m_), n = static_cast<double>(n_);
-  h.uu.scale(m * (m - 1.0));
-  h.vv.scale(n * (n - 1.0));
-  h.uv.scale(m * n);
-  proof.convex = strictly_convex(h, shape);
-  proof.no_minimum = nowhere_convex(h, shape);
-  return proof;
+  const double rounding = 1e-14 * size_;
+  if (m_ == 6 && n_ == 6) return prove<7, 7>(Eigen::Map<const Coefficients<7, 7>>(c_.data()), shape, rounding);
+  using Any = Coefficients<Eigen::Dynamic, Eigen::Dynamic>;
+  return prove<Eigen::Dynamic, Eigen::Dynamic>(Eigen::Map<const Any>(c_.data(), m_ + 1, n_ + 1), shape, rounding);
 }
 
 }  // namespace bladefit

@@ -45,10 +45,10 @@ class DistanceForm {
   [[nodiscard]] double at(std::uint32_t k, std::uint32_t l) const { return c_[k * (n_ + 1) + l]; }
   template <std::uint32_t DegreeU, std::uint32_t DegreeV>
   void square(const BezierNet& net, const Vec3& r, double bound);
-  [[nodiscard]] int common_sign(std::uint32_t step_u, std::uint32_t step_v) const;
 
   std::uint32_t m_ = 0, n_ = 0;  ///< degrees of g
-  double least_weight_ = 0, size_ = 0;
+  double least_weight_ = 0;
+  double size_ = 0;  ///< of the terms that the coefficients are differences of [mm^2]
   std::array<double, kMaxProductOrder * kMaxProductOrder> c_;
 };
 

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Installs what is needed, builds, and runs every test. Closes with one line: "bladefit: N passed, N failed".
+#   tests/run.sh            everything: format, lint, tests, and the tests under the sanitizers
+#   tests/run.sh PRESET     the tests of one preset only: dev, release, asan-ubsan or tsan
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+case "${1:-all}" in
+  all | dev | release | asan-ubsan | tsan) ;;
+  *)
+    sed -n '2,4s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+    ;;
+esac
+
+passed=0
+failed=0
+
+# check NAME COMMAND...: counts one check by its exit code.
+check() {
+  local name=$1
+  shift
+  echo "== $name"
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "FAILED: $name"
+  fi
+}
+
+sources() { git ls-files --cached --others --exclude-standard '*.cpp' '*.hpp' '*.c' '*.h'; }
+
+formatted() { sources | xargs clang-format --dry-run --Werror; }
+
+lint() {
+  sources | grep -E '^(core|drivers|config|firmware_bridge|tools)/.*\.cpp$' |
+    xargs -P "$(nproc)" -n 4 clang-tidy -p build/dev --quiet 2>/dev/null
+}
+
+# tests_of PRESET CTEST_ARGUMENTS...: builds a preset, runs its tests and adds up what ctest counted.
+tests_of() {
+  local preset=$1 log
+  shift
+  echo "== preset $preset: building"
+  log="build/$preset/test.log"
+  cmake --preset "$preset" -DBUILD_TESTING=ON >"/tmp/bladefit-configure.$$" || { cat "/tmp/bladefit-configure.$$"; rm -f "/tmp/bladefit-configure.$$"; failed=$((failed + 1)); return; }
+  rm -f "/tmp/bladefit-configure.$$"
+  if ! cmake --build --preset "$preset"; then
+    failed=$((failed + 1))
+    echo "FAILED: preset $preset does not build"
+    return
+  fi
+  echo "== preset $preset: testing"
+  ctest --preset "$preset" --parallel "$(nproc)" --output-on-failure "$@" | tee "$log" || true
+  local total bad
+  total=$(sed -n 's/.*tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\2/p' "$log")
+  bad=$(sed -n 's/.*tests passed, \([0-9]*\) tests failed out of \([0-9]*\)/\1/p' "$log")
+  if [[ -z "$total" || "$total" -eq 0 ]]; then
+    failed=$((failed + 1))
+    echo "FAILED: preset $preset ran no test"
+    return
+  fi
+  passed=$((passed + total - bad))
+  failed=$((failed + bad))
+}
+
+./tools/install.sh --tests
+if [[ "${1:-all}" == all ]]; then
+  check "format (clang-format)" formatted
+  tests_of dev
+  check "lint (clang-tidy)" lint
+  tests_of asan-ubsan --label-regex unit
+  tests_of tsan --tests-regex 'unit\.(Bridge|Ring|Host|Panel|Journal|Localizer)'
+else
+  tests_of "$1"
+fi
+echo "bladefit: $passed passed, $failed failed"
+[[ $failed -eq 0 ]]
