@@ -100,6 +100,7 @@ class ScriptedSource : public ProbeSource {
     const std::size_t end = std::min(points_.size(), stop_after);
     if (next_ >= end) {
       status_.finished = next_ == points_.size();
+      if (later_run_id != 0) status_.run_id = later_run_id;
       std::this_thread::sleep_for(timeout);
       return 0;
     }
@@ -113,10 +114,10 @@ class ScriptedSource : public ProbeSource {
   void acknowledge(std::uint32_t sequence) override { acknowledged = sequence; }
   void close() override { closed = true; }
   [[nodiscard]] const SourceStatus& status() const override { return status_; }
-  [[nodiscard]] SourceStatus& told() { return status_; }
 
   std::string refusal;  ///< open() fails with this
   std::uint32_t run_id = 7;
+  std::uint32_t later_run_id = 0;     ///< once it is silent it says that it is in this run; 0 = no change
   std::size_t stop_after = SIZE_MAX;  ///< falls silent after so many points
   std::uint32_t opened_after = 0;
   std::uint32_t acknowledged = 0;

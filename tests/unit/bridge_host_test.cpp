@@ -193,13 +193,25 @@ TEST(BridgeHost, ARunThatRestartsItsNumbersIsAFault) {
   const ScratchFolder folder;
   ScriptedSource source(measured_points(50));
   source.stop_after = 20;
-  HostSettings settings = settings_for(folder / "session");
-  Host host(settings, blade(), source, {});
+  source.later_run_id = 9;
+  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  EXPECT_EQ(result.error.fault, Fault::device);
+  EXPECT_NE(result.error.message.find("run 9"), std::string::npos) << result.error.message;
+  EXPECT_EQ(result.points.size(), 20U);
+}
+
+TEST(BridgeHost, StopsWhenAskedWithAFullResult) {
+  const ScratchFolder folder;
+  ScriptedSource source(measured_points(50));
+  source.stop_after = 20;
+  Host host(settings_for(folder / "session"), blade(), source, {});
   ASSERT_FALSE(host.start());
   EXPECT_FALSE(host.wait_for_end(200ms));
   host.request_stop();
   ASSERT_TRUE(host.wait_for_end(10s));
-  EXPECT_EQ(host.finish().end, SessionEnd::stopped);
+  const SessionResult result = host.finish();
+  EXPECT_EQ(result.end, SessionEnd::stopped);
+  EXPECT_EQ(result.verdicts.size(), 20U);
 }
 
 /// Reads the panel until `wanted` holds.
