@@ -9,6 +9,7 @@
 #include "tools/design/design_error.hpp"
 #include "tools/design/output_file.hpp"
 #include "tools/report/csv_report.hpp"
+#include "tools/report/html_report.hpp"
 #include "tools/report/session_report.hpp"
 
 namespace bladefit {
@@ -31,6 +32,7 @@ Exit codes: 0 done, 2 wrong use or a session that cannot be reported, 3 the repo
 
 std::string content_of(const std::string& format, const SessionReport& report) {
   if (format == "csv") return csv_report(report);
+  if (format == "html") return html_report(report);
   return report.result_text;
 }
 

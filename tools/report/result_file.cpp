@@ -31,7 +31,7 @@ class Field {
     return {value_.at(key), file_, inner};
   }
 
-  [[nodiscard]] Field operator[](std::size_t index) const {
+  [[nodiscard]] Field element(std::size_t index) const {
     return {value_.at(index), file_, fmt::format("{}[{}]", name_, index)};
   }
 
@@ -44,6 +44,8 @@ class Field {
   void need_size(std::size_t wanted) const {
     if (size() != wanted) fail(name_, fmt::format("has {} elements where {} belong", size(), wanted));
   }
+
+  [[nodiscard]] bool has(const char* key) const { return value_.is_object() && value_.contains(key); }
 
   [[nodiscard]] bool is_null() const { return value_.is_null(); }
 
@@ -98,10 +100,10 @@ void read_pose(const Field& pose, ReportedFit& fit) {
   translation.need_size(3);
   for (std::size_t row = 0; row < 3; ++row) {
     const auto r = static_cast<Eigen::Index>(row);
-    rotation[row].need_size(3);
+    rotation.element(row).need_size(3);
     for (std::size_t column = 0; column < 3; ++column)
-      fit.pose.rotation(r, static_cast<Eigen::Index>(column)) = rotation[row][column].number();
-    fit.pose.translation[r] = translation[row].number();
+      fit.pose.rotation(r, static_cast<Eigen::Index>(column)) = rotation.element(row).element(column).number();
+    fit.pose.translation[r] = translation.element(row).number();
   }
   fit.euler = {euler["psi"].number(), euler["theta"].number(), euler["phi"].number()};
 }
@@ -111,9 +113,9 @@ std::optional<std::array<double, 6>> read_standard_uncertainty(const Field& cova
   std::array<double, 6> standard{};
   covariance.need_size(standard.size());
   for (std::size_t row = 0; row < standard.size(); ++row) {
-    covariance[row].need_size(standard.size());
-    const double variance = covariance[row][row].number();
-    if (variance < 0) covariance[row][row].refuse("is a negative variance");
+    covariance.element(row).need_size(standard.size());
+    const double variance = covariance.element(row).element(row).number();
+    if (variance < 0) covariance.element(row).element(row).refuse("is a negative variance");
     standard[row] = std::sqrt(variance);
   }
   return standard;
@@ -126,6 +128,25 @@ ReportRegion read_region(const Field& region) {
           .rms_after = region["rms_after"].number(),
           .max_abs_after = region["max_abs_after"].number(),
           .tolerance = tolerance.is_null() ? std::numeric_limits<double>::infinity() : tolerance.number()};
+}
+
+/// Limits of a box, each within 0 to 1.
+std::array<double, 2> read_limits(const Field& limits) {
+  limits.need_size(2);
+  const std::array<double, 2> values = {limits.element(0).number(), limits.element(1).number()};
+  if (!(0.0 <= values[0] && values[0] <= values[1] && values[1] <= 1.0)) limits.refuse("is no interval within 0 to 1");
+  return values;
+}
+
+std::vector<ParameterBox> read_boxes(const Field& leading_edge) {
+  std::vector<ParameterBox> boxes;
+  if (!leading_edge.has("boxes")) return boxes;
+  const Field list = leading_edge["boxes"];
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const auto u = read_limits(list.element(k)["u"]), v = read_limits(list.element(k)["v"]);
+    boxes.push_back({list.element(k)["patch"].whole(), u[0], u[1], v[0], v[1]});
+  }
+  return boxes;
 }
 
 void read_summary(const Field& summary, ReportedFit& fit) {
@@ -158,10 +179,11 @@ ResultContent parse_result(const std::string& path, const std::string& text) {
   fit.standard_uncertainty = read_standard_uncertainty(root["covariance"]);
   read_summary(root["summary"], fit);
   fit.leading_edge = read_region(root["regions"]["leading_edge"]);
+  fit.boxes = read_boxes(root["regions"]["leading_edge"]);
   fit.rest = read_region(root["regions"]["rest"]);
   const Field points = root["points"];
   content.points.reserve(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) content.points.push_back(read_point(points[k]));
+  for (std::size_t k = 0; k < points.size(); ++k) content.points.push_back(read_point(points.element(k)));
   return content;
 }
 

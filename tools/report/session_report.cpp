@@ -100,6 +100,7 @@ SessionReport read_session(const std::string& directory) {
   const JournalContent journal = read_recording(folder);
   SessionReport report;
   report.name = fs::weakly_canonical(folder).filename().string();
+  report.identity = journal.identity;
   report.result_text = read_part(folder, kResultFile, journal);
   const std::string verdicts = read_part(folder, kVerdictsFile, journal);
   ResultContent result = parse_result(folder / kResultFile, report.result_text);

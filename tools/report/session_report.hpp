@@ -7,6 +7,7 @@
 
 #include "core/fit/pose.hpp"
 #include "core/inspection/verdict.hpp"
+#include "firmware_bridge/host/journal_format.hpp"
 
 namespace bladefit {
 
@@ -47,12 +48,14 @@ struct ReportedFit {
   std::uint32_t count = 0;                                    ///< points that count in the fit
   double rms_before = 0, rms_after = 0, max_abs_before = 0, max_abs_after = 0;
   ReportRegion leading_edge, rest;
+  std::vector<ParameterBox> boxes;  ///< of the leading-edge region; empty where the file does not tell them
 };
 
 /// A session as its folder tells of it.
 struct SessionReport {
-  std::string name;         ///< of the folder, without the path to it
-  std::string result_text;  ///< result.json to the letter
+  std::string name;          ///< of the folder, without the path to it
+  std::string result_text;   ///< result.json to the letter
+  SessionIdentity identity;  ///< design and settings that the recording is bound to
   ReportedFit fit;
   std::vector<ReportPoint> points;  ///< rising sequence
 };

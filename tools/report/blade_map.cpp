@@ -1,0 +1,113 @@
+#include "tools/report/blade_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "tools/report/map_panel.hpp"
+#include "tools/report/report_text.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr double kWidth = 1080, kLeft = 46, kTop = 24, kBottom = 36, kGap = 60, kRight = 8;
+constexpr double kOneHeight = 430, kSmallHeight = 250, kLegendHeight = 62;
+constexpr std::size_t kMostColumns = 3;
+
+std::set<std::uint32_t> patches_of(const SessionReport& report) {
+  std::set<std::uint32_t> patches;
+  for (const ReportPoint& point : report.points) patches.insert(point.patch);
+  return patches;
+}
+
+std::vector<MapPanel> place_panels(const std::set<std::uint32_t>& patches) {
+  const std::size_t columns = std::clamp<std::size_t>(patches.size(), 1, kMostColumns);
+  const auto gaps = static_cast<double>(columns - 1);
+  const double width = (kWidth - kLeft - kRight - gaps * kGap) / static_cast<double>(columns);
+  const double height = columns == 1 ? kOneHeight : kSmallHeight;
+  std::vector<MapPanel> panels;
+  for (const std::uint32_t patch : patches) {
+    const auto column = static_cast<double>(panels.size() % columns),
+               row = static_cast<double>(panels.size() / columns);
+    panels.push_back({patch, kLeft + column * (width + kGap), kTop + row * (kTop + height + kBottom), width, height});
+  }
+  return panels;
+}
+
+std::string caption(double x, double y, const std::string& text, const char* anchor = "start") {
+  return fmt::format("<text class=\"tick\" text-anchor=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", anchor, x, y, text);
+}
+
+/// A bar of the colours with the distances they mean.
+std::string colour_bar(double x, double y, const ColourScale& scale, const std::string& units) {
+  constexpr int kCells = 40;
+  constexpr double kBarWidth = 400, kBarHeight = 14;
+  std::string svg;
+  for (int k = 0; k < kCells; ++k) {
+    const double distance = scale.limit * ((2.0 * k + 1.0) / kCells - 1.0);
+    svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" fill=\"{}\"/>",
+                       x + k * kBarWidth / kCells, y, kBarWidth / kCells + 0.3, kBarHeight, scale.colour(distance));
+  }
+  svg += fmt::format("<rect class=\"frame\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\"/>\n", x, y, kBarWidth,
+                     kBarHeight);
+  for (int k = -2; k <= 2; ++k) {
+    const double distance = scale.limit * k / 2.0;
+    svg += caption(x + kBarWidth * (k + 2) / 4.0, y + 28, k == 0 ? "0" : fmt::format("{:+.4g}", distance), "middle");
+  }
+  svg += caption(x, y - 6, "too little material");
+  svg += caption(x + kBarWidth / 2, y - 6, "distance, " + units, "middle");
+  return svg + caption(x + kBarWidth, y - 6, "too much material", "end") + "\n";
+}
+
+bool has_state(const SessionReport& report, PointState state) {
+  return std::any_of(report.points.begin(), report.points.end(),
+                     [state](const ReportPoint& point) { return point.state == state; });
+}
+
+/// The marks that occur, each with its meaning.
+std::string mark_legend(double x, double y, const SessionReport& report, const ColourScale& scale) {
+  struct Entry {
+    PointState state;
+    double distance;
+    const char* meaning;
+  };
+  const double full = scale.limit;
+  std::string svg;
+  std::size_t place = 0;
+  for (const Entry& entry :
+       {Entry{PointState::out, full, "out: cut"}, Entry{PointState::out, -full, "out: weld"},
+        Entry{PointState::in, 0.4 * full, "in tolerance or not judged"},
+        Entry{PointState::pending, 0, "not decided yet"}, Entry{PointState::rejected, 0, "does not count"}}) {
+    if (!has_state(report, entry.state)) continue;
+    const double left = x + 110.0 * static_cast<double>(place % 2), top = y + 20.0 * static_cast<double>(place / 2);
+    const ReportPoint sample = {.distance = entry.distance, .state = entry.state};
+    svg += point_mark(sample, left, top, scale) + caption(left + 12, top + 4, entry.meaning) + "\n";
+    ++place;
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string blade_map(const SessionReport& report, const ColourScale& scale) {
+  const std::vector<MapPanel> panels = place_panels(patches_of(report));
+  const double bottom = panels.empty() ? 0.0 : panels.back().top + panels.back().height + kBottom;
+  std::string svg = fmt::format(
+      "<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"Map of the unrolled blade: distance of every "
+      "point\">\n",
+      kWidth, bottom + kLegendHeight + 20);
+  for (const MapPanel& panel : panels) svg += panel_frame(panel, report.fit.boxes);
+  for (const MapPanel& panel : panels) svg += panel_points(panel, report, scale);
+  svg += colour_bar(kLeft, bottom + 24, scale, escaped(report.fit.units));
+  svg += mark_legend(kLeft + 450, bottom + 22, report, scale);
+  if (!report.fit.boxes.empty()) {
+    svg += fmt::format("<rect class=\"edge\" x=\"{}\" y=\"{:.1f}\" width=\"22\" height=\"14\"/>", kLeft + 850,
+                       bottom + 15);
+    svg += caption(kLeft + 880, bottom + 26, "leading-edge region");
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace bladefit

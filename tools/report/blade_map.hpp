@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "tools/report/colour_scale.hpp"
+#include "tools/report/session_report.hpp"
+
+namespace bladefit {
+
+/// An SVG drawing of the unrolled blade: one panel a patch, u to the right, v up, every point at its foot, coloured by
+/// its signed distance. Out-of-tolerance points are ringed and carry + (cut) or - (weld), so that the map can be read
+/// without colour. With a legend.
+[[nodiscard]] std::string blade_map(const SessionReport& report, const ColourScale& scale);
+
+}  // namespace bladefit

@@ -1,0 +1,41 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tools/report/session_report.hpp"
+
+namespace bladefit {
+
+/// What the points of one region came to.
+struct RegionFindings {
+  std::uint32_t points = 0;  ///< of the region, rejected ones left out
+  std::uint32_t cut = 0, weld = 0;
+  std::uint32_t pending = 0;
+  const ReportPoint* worst_out = nullptr;  ///< the out-of-tolerance point of the largest distance; null = none is out
+
+  [[nodiscard]] std::uint32_t out() const { return cut + weld; }
+};
+
+[[nodiscard]] RegionFindings findings_of(const SessionReport& report, Region region);
+
+/// Points that do not count: foot on an edge of the design or outside the window.
+[[nodiscard]] std::uint32_t rejected_points(const SessionReport& report);
+
+/// The out-of-tolerance points: those of the leading edge first, in each region the largest distance first.
+[[nodiscard]] std::vector<const ReportPoint*> out_of_tolerance(const SessionReport& report);
+
+/// Radius of a measured point about the x axis of the design, moved there by the pose [units of the report].
+[[nodiscard]] double radius_of(const SessionReport& report, const ReportPoint& point);
+
+/// What the session says of the blade as a whole.
+enum class Outcome { in_tolerance, out_of_tolerance, undecided, not_judged };
+
+[[nodiscard]] Outcome outcome_of(const SessionReport& report);
+
+/// The outcome in some words: the head of the report.
+[[nodiscard]] std::string headline(const SessionReport& report);
+
+/// What the operator wants to know, one sentence an element, plain text.
+[[nodiscard]] std::vector<std::string> summary_sentences(const SessionReport& report);
+
+}  // namespace bladefit
