@@ -217,13 +217,13 @@ class Search {
     return {span, std::clamp(best.u, limits.u_min, limits.u_max), std::clamp(best.v, limits.v_min, limits.v_max)};
   }
 
-  /// Held at a limit that is not an edge of the patch.
+  /// Held at a limit beyond which the patch goes on.
   [[nodiscard]] static bool held_inside(const Projection& p, const ParameterLimits& limits) {
-    const bool u = p.fixed_u && ((p.place.u == limits.u_min && limits.u_min > 0.0) ||
-                                 (p.place.u == limits.u_max && limits.u_max < 1.0));
-    const bool v = p.fixed_v && ((p.place.v == limits.v_min && limits.v_min > 0.0) ||
-                                 (p.place.v == limits.v_max && limits.v_max < 1.0));
-    return u || v;
+    const auto goes_on = [&p](const Vec3& tangent, double low, double high) {
+      return p.offset.dot(tangent) > 0.0 ? high < 1.0 : low > 0.0;  // the distance falls towards that end
+    };
+    return (p.fixed_u && goes_on(p.at.s_u, limits.u_min, limits.u_max)) ||
+           (p.fixed_v && goes_on(p.at.s_v, limits.v_min, limits.v_max));
   }
 
   /// Halves the piece across its longer side.
