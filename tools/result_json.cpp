@@ -65,6 +65,15 @@ Json region_json(const BeforeAfter& sums, double tolerance_mm, double mm_per_uni
           {"tolerance", length_or_null(tolerance_mm, mm_per_unit)}};
 }
 
+Json boxes_json(const ToleranceMap& tolerance) {
+  Json boxes = Json::array();
+  for (std::uint32_t k = 0; k < tolerance.box_count; ++k) {
+    const ParameterBox& box = tolerance.boxes.at(k);
+    boxes.push_back({{"patch", box.patch}, {"u", {box.u_min, box.u_max}}, {"v", {box.v_min, box.v_max}}});
+  }
+  return boxes;
+}
+
 Json points_json(const std::vector<Verdict>& verdicts, double mm_per_unit) {
   Json points = Json::array();
   for (const Verdict& v : verdicts) {
@@ -100,6 +109,7 @@ std::string result_json(const FitResult& result, const FitPlan& plan) {
   const ToleranceMap& tolerance = plan.localizer.tolerance;
   json["regions"] = {{"leading_edge", region_json(result.leading_edge, tolerance.leading_edge_mm, unit)},
                      {"rest", region_json(result.rest, tolerance.rest_mm, unit)}};
+  json["regions"]["leading_edge"]["boxes"] = boxes_json(tolerance);
   json["tolerance_factor"] = nullptr;
   json["certificate"] = nullptr;
   json["points"] = points_json(result.verdicts, unit);

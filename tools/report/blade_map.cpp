@@ -12,8 +12,8 @@
 namespace bladefit {
 namespace {
 
-constexpr double kWidth = 1080, kLeft = 46, kTop = 24, kBottom = 36, kGap = 60, kRight = 8;
-constexpr double kOneHeight = 430, kSmallHeight = 250, kLegendHeight = 62;
+constexpr double kWidth = 1080, kLeft = 46, kTop = 24, kBottom = 36, kGap = 60, kRight = 14;
+constexpr double kOneHeight = 430, kSmallHeight = 320, kLegendHeight = 48;
 constexpr std::size_t kMostColumns = 3;
 
 std::set<std::uint32_t> patches_of(const SessionReport& report) {

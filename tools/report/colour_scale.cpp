@@ -38,7 +38,7 @@ ColourScale colour_scale_of(const SessionReport& report) {
     largest = std::max(largest, std::abs(point.distance));
     widest = std::max(widest, point.tolerance);
   }
-  return {round_step_above(std::max(std::min(largest, widest), kSmallest))};
+  return {widest <= largest ? std::max(widest, kSmallest) : round_step_above(std::max(largest, kSmallest))};
 }
 
 double round_step_above(double value) {

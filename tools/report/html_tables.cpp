@@ -59,7 +59,7 @@ std::string region_table(const SessionReport& report) {
   html += cells({"All", fmt::format("{}", fit.count), "", text.plain(fit.rms_before), text.plain(fit.rms_after),
                  text.plain(fit.max_abs_after), "", "", ""});
   return html + fmt::format(
-                    "</tbody></table>\n<p class=\"note\">Lengths in {}. Before: as the machine gave the points; "
+                    "</tbody></table>\n<p class=\"note\">Unit of length: {}. Before: as the machine gave the points; "
                     "after: moved by the pose below.</p>\n",
                     escaped(fit.units));
 }
@@ -101,7 +101,7 @@ std::string out_table(const SessionReport& report) {
     html += fmt::format("<p>And {} more: the csv report lists them all.</p>\n", out.size() - kMostRows);
   return html +
          fmt::format(
-             "<p class=\"note\">Lengths in {}. Distance: how far the point lies outside the design surface "
+             "<p class=\"note\">Unit of length: {}. Distance: how far the point lies outside the design surface "
              "(+, cut) or inside it (-, weld). Uncertainty: standard uncertainty of the distance that comes from "
              "the fit. Radius: about the x axis of the design.</p>\n",
              escaped(report.fit.units));

@@ -12,7 +12,7 @@
 namespace bladefit {
 namespace {
 
-constexpr double kPointRadius = 3.0, kOutRadius = 6.5, kGlyphArm = 3.4;
+constexpr double kPointRadius = 3.0, kOutRadius = 5.5, kGlyphArm = 3.0;
 constexpr double kLetterWidth = 6.6, kLetterHeight = 12.0;
 constexpr int kGridLines = 5;  // intervals of 0.2
 constexpr std::size_t kMostLabels = 60;
