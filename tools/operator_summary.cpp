@@ -52,9 +52,8 @@ std::string worst_list(const FitResult& result, double tip, const FitPlan& plan)
   std::string text;
   for (std::size_t k = 0; k < std::min(out.size(), kListed); ++k) {
     const Verdict& v = *out[k];
-    text += fmt::format("  point {:>5}  {:<4}  {}  (patch {}, u {:.4f}, v {:.4f}; tolerance {:.3f} {})\n", v.sequence,
-                        word(v.action), where(v, tip, plan), v.foot.patch, v.foot.u, v.foot.v,
-                        v.tolerance_mm / plan.mm_per_unit, plan.units);
+    text += fmt::format("  point {:>5}  {:<4}  {}  (patch {}, u {:.4f}, v {:.4f})\n", v.sequence, word(v.action),
+                        where(v, tip, plan), v.foot.patch, v.foot.u, v.foot.v);
   }
   if (out.size() > kListed) text += fmt::format("  and {} more\n", out.size() - kListed);
   return text;
@@ -82,6 +81,12 @@ std::string operator_summary(const FitResult& result, const FitPlan& plan, const
   if (rejected > 0)
     text += fmt::format("{} points do not count: foot on an edge of the design or outside the window\n", rejected);
   const ToleranceMap& tolerance = plan.localizer.tolerance;
+  const auto allowed = [&](double mm) {
+    return std::isfinite(mm) ? fmt::format("{:.3f} {}", mm / unit, plan.units) : std::string("none");
+  };
+  text +=
+      fmt::format("Tolerance: leading edge {}, elsewhere {}\n",
+                  tolerance.box_count > 0 ? allowed(tolerance.leading_edge_mm) : "none", allowed(tolerance.rest_mm));
   if (std::isfinite(tolerance.leading_edge_mm) && tolerance.box_count > 0)
     text += region_line(result, Region::leading_edge, "leading-edge", tip, plan) + worst_list(result, tip, plan);
   if (std::isfinite(tolerance.rest_mm)) text += region_line(result, Region::rest, "other", tip, plan);
