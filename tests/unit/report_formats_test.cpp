@@ -84,9 +84,10 @@ TEST(ReportFormats, PageNeedsNothingFromElsewhere) {
 
 TEST(ReportFormats, MapCanBeReadWithoutColour) {
   const std::string page = SessionFolder().page();
-  EXPECT_EQ(count_of(page, "class=\"number\""), 2U);
-  EXPECT_EQ(count_of(page, ">Patch 0<"), 1U);
-  EXPECT_EQ(count_of(page, "class=\"out\""), 4U) << "two points, two entries of the legend";
+  EXPECT_EQ(count_of(page, "class=\"number\""), 4U) << "two points on two maps";
+  EXPECT_EQ(count_of(page, ">Patch 0<"), 2U);
+  EXPECT_TRUE(contains(page, "Leading edge, magnified"));
+  EXPECT_EQ(count_of(page, "class=\"out\""), 6U) << "two points on two maps, two entries of the legend";
   EXPECT_TRUE(contains(page, "class=\"edge\""));
   EXPECT_TRUE(contains(page, "distance, in"));
   EXPECT_TRUE(contains(page, "Histogram of distances"));

@@ -31,9 +31,44 @@ std::vector<MapPanel> place_panels(const std::set<std::uint32_t>& patches) {
   for (const std::uint32_t patch : patches) {
     const auto column = static_cast<double>(panels.size() % columns),
                row = static_cast<double>(panels.size() / columns);
-    panels.push_back({patch, kLeft + column * (width + kGap), kTop + row * (kTop + height + kBottom), width, height});
+    panels.push_back({fmt::format("Patch {}", patch),
+                      {.patch = patch},
+                      kLeft + column * (width + kGap),
+                      kTop + row * (kTop + height + kBottom),
+                      width,
+                      height});
   }
   return panels;
+}
+
+/// The leading-edge boxes that hold a point out of tolerance and are a part of their patch only.
+std::vector<MapPanel> place_magnified(const SessionReport& report) {
+  std::vector<MapPanel> panels;
+  for (const ParameterBox& box : report.fit.boxes) {
+    const double u_range = box.u_max - box.u_min, v_range = box.v_max - box.v_min;
+    const bool any_out = std::any_of(report.points.begin(), report.points.end(), [&box](const ReportPoint& point) {
+      return point.state == PointState::out && lies_in(point, box);
+    });
+    if (!any_out || u_range <= 0 || v_range <= 0 || u_range * v_range >= 1) continue;
+    const double top = kTop + static_cast<double>(panels.size()) * (kTop + kOneHeight + kBottom);
+    panels.push_back({fmt::format("Patch {}", box.patch), box, kLeft, top, kWidth - kLeft - kRight, kOneHeight});
+  }
+  return panels;
+}
+
+double bottom_of(const std::vector<MapPanel>& panels) {
+  return panels.empty() ? 0.0 : panels.back().top + panels.back().height + kBottom;
+}
+
+std::string opening(double height, const char* label) {
+  return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n", kWidth, height, label);
+}
+
+std::string drawn(const std::vector<MapPanel>& panels, const SessionReport& report, const ColourScale& scale) {
+  std::string svg;
+  for (const MapPanel& panel : panels) svg += panel_frame(panel, report.fit.boxes);
+  for (const MapPanel& panel : panels) svg += panel_points(panel, report, scale);
+  return svg;
 }
 
 std::string caption(double x, double y, const std::string& text, const char* anchor = "start") {
@@ -93,13 +128,9 @@ std::string mark_legend(double x, double y, const SessionReport& report, const C
 
 std::string blade_map(const SessionReport& report, const ColourScale& scale) {
   const std::vector<MapPanel> panels = place_panels(patches_of(report));
-  const double bottom = panels.empty() ? 0.0 : panels.back().top + panels.back().height + kBottom;
-  std::string svg = fmt::format(
-      "<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"Map of the unrolled blade: distance of every "
-      "point\">\n",
-      kWidth, bottom + kLegendHeight + 20);
-  for (const MapPanel& panel : panels) svg += panel_frame(panel, report.fit.boxes);
-  for (const MapPanel& panel : panels) svg += panel_points(panel, report, scale);
+  const double bottom = bottom_of(panels);
+  std::string svg = opening(bottom + kLegendHeight + 20, "Map of the unrolled blade: distance of every point") +
+                    drawn(panels, report, scale);
   svg += colour_bar(kLeft, bottom + 24, scale, escaped(report.fit.units));
   svg += mark_legend(kLeft + 450, bottom + 22, report, scale);
   if (!report.fit.boxes.empty()) {
@@ -108,6 +139,12 @@ std::string blade_map(const SessionReport& report, const ColourScale& scale) {
     svg += caption(kLeft + 880, bottom + 26, "leading-edge region");
   }
   return svg + "</svg>\n";
+}
+
+std::string leading_edge_map(const SessionReport& report, const ColourScale& scale) {
+  const std::vector<MapPanel> panels = place_magnified(report);
+  if (panels.empty()) return {};
+  return opening(bottom_of(panels), "Leading edge, magnified") + drawn(panels, report, scale) + "</svg>\n";
 }
 
 }  // namespace bladefit

@@ -11,4 +11,8 @@ namespace bladefit {
 /// without colour. With a legend.
 [[nodiscard]] std::string blade_map(const SessionReport& report, const ColourScale& scale);
 
+/// The same of each leading-edge region that has a point out of tolerance, drawn as large as a whole blade, so that
+/// neighbours come apart. Empty where there is none.
+[[nodiscard]] std::string leading_edge_map(const SessionReport& report, const ColourScale& scale);
+
 }  // namespace bladefit

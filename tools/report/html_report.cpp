@@ -28,8 +28,8 @@ th:first-child, td:first-child { text-align: left; }
 .points th:nth-child(2), .points td:nth-child(2), .points th:nth-child(7), .points td:nth-child(7) { text-align: left; }
 .cut { color: #a04000; } .weld { color: #084081; } .note { color: #565c64; font-size: 13px; margin: 6px 0; }
 svg { width: 100%; height: auto; display: block; } svg text { font-family: inherit; fill: #1a1d21; }
-.blade { fill: #f3f4f6; stroke: #555; } .edge { fill: #ddd8c4; stroke: #857b50; stroke-dasharray: 5 3; }
-.grid { stroke: #c9cdd2; stroke-width: 0.6; fill: none; } .frame { stroke: #555; fill: none; }
+.blade { fill: #f3f4f6; stroke: #555; } .edge { fill: #e9e4d0; stroke: #857b50; stroke-dasharray: 5 3; }
+.grid { stroke: #b4b9bf; stroke-width: 0.6; fill: none; } .frame { stroke: #555; fill: none; }
 .tick { font-size: 12px; } .axis { font-size: 13.5px; font-weight: 600; }
 .number { font-size: 11.5px; font-weight: 600; paint-order: stroke; stroke: #fff; stroke-width: 3px; }
 .in { stroke: #6d737a; stroke-width: 0.5; } .out { stroke: #000; stroke-width: 1.6; }
@@ -75,6 +75,7 @@ std::string html_report(const SessionReport& report) {
       escaped(report.name), report.identity.design_crc, report.identity.config_digest);
   html += summary(report);
   html += section("Map of the unrolled blade", blade_map(report, scale));
+  html += section("Leading edge, magnified", leading_edge_map(report, scale));
   html += section("Points out of tolerance", out_table(report));
   html += section("Regions", region_table(report));
   html += section("Pose", pose_table(report));

@@ -45,7 +45,7 @@ std::string tooltip(const ReportPoint& point, const std::string& units) {
 std::vector<const ReportPoint*> drawn_points(const MapPanel& panel, const SessionReport& report) {
   std::vector<const ReportPoint*> points;
   for (const ReportPoint& point : report.points) {
-    if (point.patch == panel.patch) points.push_back(&point);
+    if (lies_in(point, panel.part)) points.push_back(&point);
   }
   std::stable_sort(points.begin(), points.end(), [](const ReportPoint* a, const ReportPoint* b) {
     const bool a_out = a->state == PointState::out, b_out = b->state == PointState::out;
@@ -60,7 +60,7 @@ std::string labels(const MapPanel& panel, const SessionReport& report) {
   std::vector<const ReportPoint*> out;
   std::vector<Rectangle> taken;
   for (const ReportPoint* point : out_of_tolerance(report)) {
-    if (point->patch != panel.patch) continue;
+    if (!lies_in(*point, panel.part)) continue;
     out.push_back(point);
     taken.push_back(around(panel.x(point->u), panel.y(point->v), kOutRadius));
   }
@@ -68,12 +68,13 @@ std::string labels(const MapPanel& panel, const SessionReport& report) {
   std::string svg;
   for (const ReportPoint* point : out) {
     const std::string number = fmt::format("{}", point->sequence);
-    const double width = kLetterWidth * static_cast<double>(number.size()), gap = kOutRadius + 2;
+    const double width = kLetterWidth * static_cast<double>(number.size()), gap = kOutRadius + 3.5;
     const double x = panel.x(point->u), y = panel.y(point->v);
     for (const auto& [left, middle] :
          {std::pair(x + gap, y), std::pair(x - gap - width, y), std::pair(x - width / 2, y - gap - kLetterHeight / 2),
           std::pair(x - width / 2, y + gap + kLetterHeight / 2)}) {
       const Rectangle place = {left, middle - kLetterHeight / 2, left + width, middle + kLetterHeight / 2};
+      if (place.left < panel.left || place.right > panel.left + panel.width) continue;
       if (std::any_of(taken.begin(), taken.end(), [&](const Rectangle& other) { return place.meets(other); })) continue;
       taken.push_back(place);
       svg += fmt::format("<text class=\"number\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", left, middle + 4, number);
@@ -86,17 +87,24 @@ std::string labels(const MapPanel& panel, const SessionReport& report) {
 std::string shaded_boxes(const MapPanel& panel, const std::vector<ParameterBox>& boxes) {
   std::string svg;
   for (const ParameterBox& box : boxes) {
-    if (box.patch != panel.patch) continue;
+    if (box.patch != panel.part.patch) continue;
+    const double u_min = std::max(box.u_min, panel.part.u_min), u_max = std::min(box.u_max, panel.part.u_max);
+    const double v_min = std::max(box.v_min, panel.part.v_min), v_max = std::min(box.v_max, panel.part.v_max);
+    if (u_min > u_max || v_min > v_max) continue;
     svg += fmt::format(
         "<rect class=\"edge\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>leading-edge "
         "region</title></rect>\n",
-        panel.x(box.u_min), panel.y(box.v_max), (box.u_max - box.u_min) * panel.width,
-        (box.v_max - box.v_min) * panel.height);
+        panel.x(u_min), panel.y(v_max), panel.x(u_max) - panel.x(u_min), panel.y(v_min) - panel.y(v_max));
   }
   return svg;
 }
 
 }  // namespace
+
+bool lies_in(const ReportPoint& point, const ParameterBox& box) {
+  return point.patch == box.patch && box.u_min <= point.u && point.u <= box.u_max && box.v_min <= point.v &&
+         point.v <= box.v_max;
+}
 
 std::string panel_frame(const MapPanel& panel, const std::vector<ParameterBox>& boxes) {
   const double right = panel.left + panel.width, bottom = panel.top + panel.height;
@@ -105,20 +113,22 @@ std::string panel_frame(const MapPanel& panel, const std::vector<ParameterBox>& 
                   panel.top, panel.width, panel.height);
   svg += shaded_boxes(panel, boxes);
   for (int k = 0; k <= kGridLines; ++k) {
-    const double value = static_cast<double>(k) / kGridLines, x = panel.x(value), y = panel.y(value);
+    const double share = static_cast<double>(k) / kGridLines;
+    const double u = panel.part.u_min + share * (panel.part.u_max - panel.part.u_min), x = panel.x(u);
+    const double v = panel.part.v_min + share * (panel.part.v_max - panel.part.v_min), y = panel.y(v);
     svg += fmt::format("<path class=\"grid\" d=\"M{:.1f} {:.1f}V{:.1f}M{:.1f} {:.1f}H{:.1f}\"/>", x, panel.top, bottom,
                        panel.left, y, right);
-    svg += fmt::format("<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{:.1f}</text>", x,
-                       bottom + 15, value);
-    svg += fmt::format("<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{:.1f}</text>\n",
-                       panel.left - 6, y + 4, value);
+    svg += fmt::format("<text class=\"tick\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">{:.4g}</text>", x,
+                       bottom + 15, u);
+    svg += fmt::format("<text class=\"tick\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{:.4g}</text>\n",
+                       panel.left - 6, y + 4, v);
   }
-  svg += fmt::format("<text class=\"axis\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">u</text>", panel.x(0.5),
-                     bottom + 30);
+  svg += fmt::format("<text class=\"axis\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">u</text>",
+                     panel.left + panel.width / 2, bottom + 30);
   svg += fmt::format("<text class=\"axis\" text-anchor=\"middle\" x=\"{:.1f}\" y=\"{:.1f}\">v</text>", panel.left - 34,
-                     panel.y(0.5) + 4);
-  svg += fmt::format("<text class=\"axis\" x=\"{:.1f}\" y=\"{:.1f}\">Patch {}</text>\n", panel.left, panel.top - 7,
-                     panel.patch);
+                     panel.top + panel.height / 2 + 4);
+  svg +=
+      fmt::format("<text class=\"axis\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", panel.left, panel.top - 7, panel.title);
   return svg;
 }
 
