@@ -46,7 +46,13 @@ class Search {
         slack_(kSlack * surface.half_diagonal()) {}
 
   void consider(const Projection& candidate) {
-    if (!candidate.converged) return;
+    if (!candidate.converged) {
+      // Where no local minimum can be told, at a centre of curvature, the nearest place seen is the answer.
+      const bool nearer = !has_resort_ || candidate.distance_squared() < resort_.distance_squared();
+      if (nearer) resort_ = candidate;
+      has_resort_ = true;
+      return;
+    }
     const double distance = std::sqrt(candidate.distance_squared());
     if (directed_) {
       const double facing = surface_.normal(candidate.place, candidate.at).dot(query_.approach);
@@ -93,6 +99,7 @@ class Search {
   [[nodiscard]] bool found() const { return found_; }
   [[nodiscard]] GlobalProjection result() const {
     GlobalProjection out = result_;
+    if (!found_ && has_resort_) out.nearest = resort_;
     out.proven = found_ && !exhausted_;
     out.lead = out.proven ? std::max(0.0, std::min(rival_distance_, reach()) - best_distance_) : 0.0;
     return out;
@@ -249,6 +256,8 @@ class Search {
   double best_distance_ = 0.0;
   double rival_distance_ = INFINITY;
   GlobalProjection result_;
+  bool has_resort_ = false;
+  Projection resort_;  ///< the nearest place that is not a proper minimum
 };
 
 GlobalProjection search(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
@@ -267,7 +276,7 @@ bool faces_probe(const Surface& surface, const Projection& projection, const Vec
 
 GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
   GlobalProjection directed = search(surface, query, hint);
-  if (directed.nearest.converged) return directed;
+  if (directed.nearest.converged || query.approach.isZero()) return directed;
   const ProjectionQuery undirected{query.point, Vec3::Zero(), query.margin};
   GlobalProjection any = search(surface, undirected, hint);
   any.proven = any.proven && directed.pieces <= kMaxPieces;
