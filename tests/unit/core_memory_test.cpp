@@ -1,0 +1,202 @@
+// The core allocates nothing, three proofs: the archive asks for no allocator, nothing is allocated in a whole session,
+// and Eigen's own check stays silent (this test is built with the core's sources and EIGEN_RUNTIME_NO_MALLOC).
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "tests/unit/core_session.hpp"
+
+namespace {
+
+std::atomic<bool> counting{false};
+std::atomic<std::size_t> allocations{0};
+
+void count() {
+  if (counting) ++allocations;
+}
+
+}  // namespace
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+
+// The sanitizers bring their own allocator, which reports what it is asked for.
+#include <sanitizer/allocator_interface.h>
+
+namespace {
+const int installed = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t) { count(); },
+                                                                [](const volatile void*) { count(); });
+}  // namespace
+
+#else
+
+// Takes the place of the C library's allocator, which operator new goes through as well.
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+void __libc_free(void*);
+
+void* malloc(std::size_t size) {
+  count();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t number, std::size_t size) {
+  count();
+  return __libc_calloc(number, size);
+}
+void* realloc(void* block, std::size_t size) {
+  count();
+  return __libc_realloc(block, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
+  *block = memalign(alignment, size);
+  return *block == nullptr ? ENOMEM : 0;
+}
+void free(void* block) {
+  if (block != nullptr) count();
+  __libc_free(block);
+}
+}
+
+#endif
+
+namespace bladefit::testing {
+namespace {
+
+/// Counts what happens while it lives.
+class AllocationCount {
+ public:
+  AllocationCount() {
+    allocations = 0;
+    counting = true;
+    Eigen::internal::set_is_malloc_allowed(false);
+  }
+  ~AllocationCount() { stop(); }
+  AllocationCount(const AllocationCount&) = delete;
+  AllocationCount& operator=(const AllocationCount&) = delete;
+  std::size_t stop() {
+    counting = false;
+    Eigen::internal::set_is_malloc_allowed(true);
+    return allocations;
+  }
+};
+
+std::set<std::string> undefined_symbols(const std::string& archive) {
+  FILE* pipe = popen(("nm -u -P '" + archive + "' 2>&1").c_str(), "r");
+  std::string text;
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) text.append(buffer.data(), n);
+  EXPECT_EQ(pclose(pipe), 0) << text;
+  std::set<std::string> symbols;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = line.find(" U");
+    if (end != std::string::npos) symbols.insert(line.substr(0, end));
+  }
+  return symbols;
+}
+
+/// Everything that the core may ask of the outside: memory copies, mathematics, assertions of a debug build, and what
+/// sanitizers add.
+bool allowed(const std::string& symbol) {
+  static const std::set<std::string> names = {"memcpy",
+                                              "memmove",
+                                              "memset",
+                                              "memcmp",
+                                              "sqrt",
+                                              "sin",
+                                              "cos",
+                                              "sincos",
+                                              "atan2",
+                                              "hypot",
+                                              "__assert_fail",
+                                              "__stack_chk_fail",
+                                              "_GLOBAL_OFFSET_TABLE_"};
+  const auto begins = [&](const char* prefix) { return symbol.rfind(prefix, 0) == 0; };
+  return names.contains(symbol) || begins("_ZN8bladefit") || begins("_ZNK8bladefit") || begins("__asan_") ||
+         begins("__ubsan_") || begins("__tsan_") || begins("__sanitizer_");
+}
+
+TEST(CoreMemory, ArchiveAsksForNoAllocator) {
+  const std::set<std::string> symbols = undefined_symbols(BLADEFIT_CORE_ARCHIVE);
+  EXPECT_TRUE(symbols.contains("sqrt") || symbols.contains("atan2")) << "nm gave nothing";
+  for (const std::string& symbol : symbols) EXPECT_TRUE(allowed(symbol)) << symbol;
+  for (const char* forbidden : {"malloc", "free", "_Znwm", "_ZdlPvm", "__cxa_throw", "pthread_mutex_lock"}) {
+    EXPECT_FALSE(allowed(forbidden)) << forbidden;
+  }
+}
+
+TEST(CoreMemory, CounterCounts) {
+  AllocationCount count;
+  auto* number = new int(3);
+  EXPECT_GT(allocations, 0U);
+  delete number;
+  void* block = malloc(10);
+  free(block);
+  EXPECT_GE(count.stop(), 4U);
+}
+
+TEST(CoreMemoryDeathTest, EigensCheckIsAlive) {
+  EXPECT_DEATH(
+      {
+        Eigen::internal::set_is_malloc_allowed(false);
+        const Eigen::MatrixXd matrix = Eigen::MatrixXd::Ones(7, 7);
+        std::printf("%g", matrix.sum());
+      },
+      "allocation is forbidden");
+}
+
+TEST(CoreMemory, NothingIsAllocatedInAWholeSession) {
+  const BladeSession s;
+  LocalizerConfig config = s.config;
+  config.capacity = 1500;  // the memory becomes full on the way
+  const AlignedBlock block(Localizer::memory_required(config));
+  std::size_t accepted = 0, revisions = 0, found = 0;
+
+  AllocationCount count;
+  DesignImage image;
+  const Status opened = DesignImage::open(s.design.bytes(), image);
+  Localizer* localizer = nullptr;
+  const Status created = Localizer::create(block.bytes(), image, config, localizer);
+  Verdict verdict;
+  for (const ProbePoint& point : s.points) {
+    accepted += succeeded(localizer->push(point, verdict)) ? 1 : 0;
+    while (localizer->next_revision(verdict)) ++revisions;
+    if (point.sequence % 100 == 0) (void)localizer->refine(500);
+    if (point.sequence % 10 == 0) (void)localizer->fit();
+  }
+  localizer->conclude();
+  const Status refined = refine_fully(*localizer);
+  for (const ProbePoint& point : s.points)
+    found += localizer->verdict_of(point.sequence, verdict) == Status::ok ? 1 : 0;
+  const FitReport report = localizer->fit();
+  localizer->reset();
+  for (const ProbePoint& point : s.points) {
+    if (localizer->stage(point) != Status::ok) break;
+  }
+  EXPECT_EQ(count.stop(), 0U);
+
+  EXPECT_EQ(opened, Status::ok);
+  EXPECT_EQ(created, Status::ok);
+  EXPECT_EQ(refined, Status::ok);
+  EXPECT_EQ(accepted, s.points.size());
+  EXPECT_EQ(found, 1500U);
+  EXPECT_GT(revisions, 0U);
+  EXPECT_EQ(report.status, FitStatus::converged);
+}
+
+}  // namespace
+}  // namespace bladefit::testing
