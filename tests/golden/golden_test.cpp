@@ -1,0 +1,202 @@
+// The real command against the independent reference solutions: every case, every subset, IGES, STEP and compiled.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <sstream>
+#include <tuple>
+
+#include "tests/golden/reference_case.hpp"
+
+namespace bladefit::testing {
+namespace {
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  ///< standard output and error
+};
+
+Outcome run(const std::vector<std::string>& arguments) {
+  std::string line;
+  for (const std::string& argument : arguments) line += "'" + argument + "' ";
+  FILE* pipe = popen((line + "2>&1").c_str(), "r");
+  Outcome outcome;
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    outcome.output.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+/// `number` box limits as the command line takes them; only the direction that does not span the patch is named.
+std::string leading_edge_option(const ReferenceCase::Box& box) {
+  const bool along_u = box.v[0] == 0.0 && box.v[1] == 1.0;
+  const double* limits = along_u ? box.u : box.v;
+  return fmt::format("{}:{}:{}:{}", box.patch, along_u ? 'u' : 'v', limits[0], limits[1]);
+}
+
+class GoldenCase : public ::testing::Test {
+ protected:
+  GoldenCase() {
+    std::string name = (std::filesystem::temp_directory_path() / "bladefit_golden_XXXXXX").string();
+    scratch_ = ::mkdtemp(name.data());
+  }
+  ~GoldenCase() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(scratch_, ignored);
+  }
+
+  [[nodiscard]] std::string scratch(const std::string& name) const { return scratch_ / name; }
+
+  /// The options that case.json asks for, lengths in `unit`.
+  static std::vector<std::string> fit_options(const ReferenceCase& c, const std::string& unit) {
+    const double length = unit == c.unit ? 1.0 : c.mm_per_unit == 1.0 ? 1.0 / 25.4 : 25.4;
+    std::vector<std::string> options;
+    for (const ReferenceCase::Box& box : c.leading_edge) {
+      options.insert(options.end(), {"--leading-edge", leading_edge_option(box)});
+    }
+    if (c.probe_radius != 0.0)
+      options.insert(options.end(), {"--probe-radius", fmt::format("{}", c.probe_radius * length)});
+    if (!c.use_approach) options.emplace_back("--ignore-approach");
+    return options;
+  }
+
+  /// Runs the fit with these options and compares its result with the truth of the subset.
+  void expect_truth(const ReferenceCase& c, const ReferenceSubset& subset, const std::string& design,
+                    std::vector<std::string> options) const {
+    const std::string result = scratch("result.json");
+    std::filesystem::remove(result);
+    options.insert(options.begin(), {BLADEFIT_COMMAND, "localize", "--design", design, "--json", result});
+    // Points beyond the border of the blade count in the subsets called `all`, and in no other.
+    if (subset.name == "all") options.insert(options.end(), {"--edges", "use"});
+    const Outcome fit = run(options);
+    ASSERT_EQ(fit.exit_code, 0) << c.name << "/" << subset.name << ": " << fit.output;
+    const Outcome check = run({"python3", BLADEFIT_TEST_DATA "/check.py", subset.truth, result});
+    EXPECT_EQ(check.exit_code, 0) << c.name << "/" << subset.name << ": " << check.output << fit.output;
+  }
+
+  static std::vector<std::string> with(std::vector<std::string> left, const std::vector<std::string>& right) {
+    left.insert(left.end(), right.begin(), right.end());
+    return left;
+  }
+
+  static std::string sign_text(const ReferenceCase& c) { return c.normal_sign > 0 ? "+" : "-"; }
+
+ private:
+  std::filesystem::path scratch_;
+};
+
+class GoldenDesign : public GoldenCase, public ::testing::WithParamInterface<std::tuple<std::string, std::string>> {};
+
+TEST_P(GoldenDesign, EverySubsetAgreesWithItsTruth) {
+  const ReferenceCase c = read_case(std::get<0>(GetParam()));
+  const std::string design = c.folder / ("design." + std::get<1>(GetParam()));
+  for (const ReferenceSubset& subset : c.subsets) {
+    expect_truth(c, subset, design,
+                 with(fit_options(c, c.unit), {"--points", subset.points, "--outward", sign_text(c)}));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllCases, GoldenDesign,
+                         ::testing::Combine(::testing::ValuesIn(reference_case_names()),
+                                            ::testing::Values("igs", "stp")),
+                         [](const auto& one) { return std::get<0>(one.param) + "_" + std::get<1>(one.param); });
+
+class GoldenOptions : public GoldenCase, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(GoldenOptions, CompiledDesignGivesTheSame) {
+  const ReferenceCase c = read_case(GetParam());
+  const std::string image = scratch("design.bfd");
+  const Outcome compiled =
+      run({BLADEFIT_COMMAND, "compile", c.folder / "design.igs", "-o", image, "--outward", sign_text(c)});
+  ASSERT_EQ(compiled.exit_code, 0) << compiled.output;
+  for (const ReferenceSubset& subset : c.subsets) {
+    expect_truth(c, subset, image, with(fit_options(c, c.unit), {"--points", subset.points}));
+  }
+}
+
+TEST_P(GoldenOptions, SubsetByRowNumbersGivesTheSame) {
+  const ReferenceCase c = read_case(GetParam());
+  for (const ReferenceSubset& subset : c.subsets) {
+    if (subset.indices.empty()) continue;
+    expect_truth(c, subset, c.folder / "design.igs",
+                 with(fit_options(c, c.unit),
+                      {"--points", c.folder / "points.csv", "--subset", subset.indices, "--outward", sign_text(c)}));
+  }
+}
+
+/// The bytes of a compiled image are the same whether its side was found or given.
+TEST_P(GoldenOptions, OutwardSideIsFoundFromTheShape) {
+  const ReferenceCase c = read_case(GetParam());
+  for (const char* outward : {"auto", c.normal_sign > 0 ? "+" : "-"}) {
+    const Outcome compiled = run({BLADEFIT_COMMAND, "compile", c.folder / "design.igs", "-o",
+                                  scratch(std::string(outward) + ".bfd"), "--outward", outward});
+    ASSERT_EQ(compiled.exit_code, 0) << compiled.output;
+  }
+  EXPECT_EQ(run({"cmp", scratch("auto.bfd"), scratch(sign_text(c) + ".bfd")}).exit_code, 0);
+  expect_truth(c, c.subsets.front(), c.folder / "design.stp",
+               with(fit_options(c, c.unit), {"--points", c.subsets.front().points, "--outward", "auto"}));
+}
+
+/// The points' coordinates are in the units asked for; the result as well, which check.py turns back.
+TEST_P(GoldenOptions, OtherUnitsGiveTheSame) {
+  const ReferenceCase c = read_case(GetParam());
+  const std::string other = c.unit == "in" ? "mm" : "in";
+  const double factor = c.unit == "in" ? 25.4 : 1.0 / 25.4;
+  const ReferenceSubset& subset = c.subsets.front();
+  std::ifstream in(subset.points);
+  const std::string converted = scratch("points.csv");
+  std::ofstream out(converted);
+  std::string line;
+  std::getline(in, line);
+  out << line << "\n";
+  while (std::getline(in, line)) {
+    std::istringstream fields(line);
+    std::string field;
+    for (int k = 0; std::getline(fields, field, ','); ++k) {
+      out << (k > 0 ? "," : "") << (k < 3 ? fmt::format("{}", std::stod(field) * factor) : field);
+    }
+    out << "\n";
+  }
+  out.close();
+  expect_truth(c, subset, c.folder / "design.igs",
+               with(fit_options(c, other), {"--points", converted, "--units", other, "--outward", sign_text(c)}));
+  expect_truth(c, subset, c.folder / "design.igs",
+               with(fit_options(c, c.unit), {"--points", subset.points, "--units", c.unit, "--outward", sign_text(c)}));
+}
+
+INSTANTIATE_TEST_SUITE_P(AllCases, GoldenOptions, ::testing::ValuesIn(reference_case_names()),
+                         [](const auto& one) { return one.param; });
+
+/// The thesis' own selection: of all points, those whose foot before the fit lies within 0.05 to 0.95.
+TEST_F(GoldenCase, WindowSelectsTheFullSubset) {
+  const ReferenceCase c = read_case("arl_fan");
+  const auto full = std::find_if(c.subsets.begin(), c.subsets.end(), [](const auto& s) { return s.name == "full"; });
+  ASSERT_NE(full, c.subsets.end());
+  expect_truth(c, *full, c.folder / "design.igs",
+               with(fit_options(c, c.unit), {"--points", c.folder / "points.csv", "--window", "0.05:0.95"}));
+}
+
+/// The reference data's checker must be able to say no: a result moved by one part in 10^7 is refused.
+TEST_F(GoldenCase, CheckerRefusesAWrongPose) {
+  const ReferenceCase c = read_case("arl_fan");
+  const std::string result = scratch("result.json");
+  ASSERT_EQ(run(with({BLADEFIT_COMMAND, "localize", "--design", c.folder / "design.igs", "--json", result, "--points",
+                      c.subsets.front().points, "--outward", "+"},
+                     fit_options(c, c.unit)))
+                .exit_code,
+            0);
+  nlohmann::json json = read_json(result);
+  json["pose"]["translation"][1] = json["pose"]["translation"][1].get<double>() + 1e-6;
+  std::ofstream(result) << json;
+  EXPECT_EQ(run({"python3", BLADEFIT_TEST_DATA "/check.py", c.subsets.front().truth, result}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace bladefit::testing
