@@ -18,9 +18,9 @@ constexpr double kStartUncertainty = 0.01;
 constexpr double kPendingShare = 0.1;
 /// Fewer fitted points than this hide their own errors: every verdict is pending.
 constexpr std::uint32_t kLeastFitted = 12;
-/// While the pose has moved further than the tracking range [half diagonals] since the sums in use were begun, pushes
+/// While the pose has moved further than this [half diagonals] since the sums in use were begun, pushes
 /// refresh this many times the points: the expansions are worn out.
-constexpr double kTrackingRange = 1e-4;
+constexpr double kWornBeyond = 5e-4;
 constexpr std::uint32_t kCatchUp = 8;
 /// Rivals of a foot are sought up to this much farther [half diagonals], so that it can be tracked for half as long.
 constexpr double kSearchMargin = 2e-3;
@@ -93,7 +93,7 @@ Status Localizer::create(std::span<std::byte> memory, const DesignImage& design,
 
 void Localizer::reset() {
   pose_ = config_.start;
-  current_ = filling_ = frozen_ = FitSums();
+  settled_ = filling_ = frozen_ = FitSums();
   frozen_.model.reference = pose_;
   determination_ = Determination();
   determination_.free_directions = Mat6::Identity();
@@ -102,11 +102,11 @@ void Localizer::reset() {
   concluded_ = converged_ = has_last_ = false;
   revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
   judged_out_[0] = judged_out_[1] = 0;
-  stored_ = cursor_ = queue_head_ = queue_size_ = 0;
+  stored_ = fresh_count_ = active_count_ = cursor_ = queue_head_ = queue_size_ = 0;
   last_place_ = SurfacePlace();
   last_step_ = 0;
   begin_sweep();
-  current_ = filling_;
+  settled_ = current_ = filling_;
   covariance_ = unit_covariance(current_.model, determination_, 1.0);
 }
 
@@ -162,46 +162,16 @@ bool Localizer::left_out(const StoredPoint& point, const Foot& foot) const {
   return point.outside_window || (foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip);
 }
 
-void Localizer::include(FitSums& sums, const StoredPoint& point, const Measurement& m, const Vec6& x) const {
-  if (left_out(point, m.foot)) return;
-  sums.model.add(distance_row(m.projection, m.foot, m.r, x, frame_), x);
-  const Region region = region_at(config_.tolerance, m.foot.patch, m.foot.u, m.foot.v);
-  sums.regions[static_cast<std::size_t>(region)].add(m.foot.distance, point.sequence);
-}
-
-void Localizer::note(StoredPoint& point, const Measurement& m) {
-  point.foot = m.foot;
-  point.span = m.projection.place.span;
-  point.revision = revision_;
-  if (!m.searched) return;
-  point.searched_at = m.r;
-  point.lead = m.lead;
-}
-
-StoredPoint* Localizer::store(const StoredPoint& point, const Measurement& m) {
-  const Vec6 x = motion_between(current_.model.reference, pose_, frame_);
-  include(current_, point, m, x);
-  last_sequence_ = point.sequence;
-  last_place_ = m.projection.place;
-  ++accepted_;
-  if (stored_ < config_.capacity) {
-    points_[stored_] = point;
-    note(points_[stored_], m);
-    return &points_[stored_++];
-  }
-  include(filling_, point, m, motion_between(filling_.model.reference, pose_, frame_));
-  include(frozen_, point, m, motion_between(frozen_.model.reference, pose_, frame_));
-  return nullptr;
-}
-
 Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   if (const Status status = check(point); status != Status::ok) return status;
   refinement_.active = concluded_ = converged_ = false;
   Measurement measurement;
   StoredPoint passing = admitted(point, measurement);
   StoredPoint* place = store(passing, measurement);
-  const bool worn = motion_between(current_.model.reference, pose_, frame_).norm() > kTrackingRange * frame_.length;
+  settle();
+  const bool worn = motion_between(settled_.model.reference, pose_, frame_).norm() > kWornBeyond * frame_.length;
   refresh(worn ? kCatchUp * config_.refresh_per_push : config_.refresh_per_push);
+  gather(measurement);
   solve();
 
   StoredPoint& own = place != nullptr ? *place : passing;
@@ -223,6 +193,7 @@ Status Localizer::stage(const ProbePoint& point) {
   Measurement measurement;
   const StoredPoint passing = admitted(point, measurement);
   StoredPoint& own = *store(passing, measurement);
+  settle_all();
   judge(own);
   own.told_state = own.state;
   own.told_action = own.action;

@@ -106,6 +106,7 @@ class Localizer {
  private:
   Localizer(const DesignImage& design, const LocalizerConfig& config);
 
+  static constexpr std::uint32_t kFreshPlaces = 16;
   struct Measurement {
     Projection projection;
     Foot foot;
@@ -133,10 +134,18 @@ class Localizer {
   void judge(StoredPoint& point);
   void count_verdict(const StoredPoint& point, int sign);
   void include(FitSums& sums, const StoredPoint& point, const Measurement& measurement, const Vec6& x) const;
+  void make_fresh(std::uint32_t index);
+  void settle_one(std::uint32_t place);
+  void settle();
+  void settle_all();
+  void review(std::uint32_t index, const Measurement& measurement);
+  void rejudge(std::uint32_t index);
+  [[nodiscard]] bool contested(const StoredPoint& point) const;
+  void include(FitSums& sums, const StoredPoint& point, const Measurement& measurement) const;
+  void gather(const Measurement& newest);
   void begin_sweep();
   void refresh(std::uint32_t budget);
   double solve();
-  void refresh_next(const Vec6& x);
   [[nodiscard]] bool finish_refine_sweep(Status& status);
   [[nodiscard]] bool retreat();
   [[nodiscard]] double threshold() const;
@@ -147,7 +156,11 @@ class Localizer {
   LocalizerConfig config_;
   MotionFrame frame_;
   Pose pose_;
-  FitSums current_, filling_, frozen_;
+  FitSums settled_;  ///< all points but the fresh ones
+  FitSums
+      current_;  ///< those and the fresh ones, whose rows are taken anew in every push: what the pose is solved from
+  FitSums filling_;  ///< by the sweep under way; takes the place of settled_ at its end
+  FitSums frozen_;   ///< points that have no place in memory
   Determination determination_;
   Mat6 covariance_ = Mat6::Identity();  ///< of x, for unit variance
   double sigma_ = 0;
@@ -160,6 +173,10 @@ class Localizer {
   bool has_last_ = false;
   std::uint32_t stored_ = 0, cursor_ = 0;
   std::uint32_t queue_head_ = 0, queue_size_ = 0;
+  /// Indices of the fresh points; the first active_count_ are outside of settled_, the others leave it at the sweep's
+  /// end.
+  std::array<std::uint32_t, kFreshPlaces> fresh_{};
+  std::uint32_t fresh_count_ = 0, active_count_ = 0;
   StoredPoint* points_ = nullptr;   ///< capacity of them
   std::uint32_t* queue_ = nullptr;  ///< ring of indices with a changed verdict, each at most once
 };

@@ -19,26 +19,6 @@ void Localizer::begin_sweep() {
   cursor_ = 0;
 }
 
-void Localizer::refresh_next(const Vec6& x) {
-  StoredPoint& point = points_[cursor_];
-  const Measurement m = measure(point, pose_);
-  if (m.changed) ++refinement_.changed;
-  note(point, m);
-  judge(point);
-  if (point.state != point.told_state || point.action != point.told_action) queue_revision(cursor_);
-  include(filling_, point, m, x);
-  ++cursor_;
-}
-
-void Localizer::refresh(std::uint32_t budget) {
-  const Vec6 x = motion_between(filling_.model.reference, pose_, frame_);
-  for (std::uint32_t k = 0; k < budget && cursor_ < stored_; ++k) refresh_next(x);
-  if (cursor_ < stored_) return;
-  current_ = filling_;
-  redetermine_ = true;
-  begin_sweep();
-}
-
 /// The last step made the sum of squares larger: go back and take a quarter of it. False when it did not.
 bool Localizer::retreat() {
   Refinement& r = refinement_;
@@ -55,7 +35,7 @@ bool Localizer::retreat() {
 /// Closes a sweep of refine(): moves the pose and decides what comes next. True when the refinement is over.
 bool Localizer::finish_refine_sweep(Status& status) {
   Refinement& r = refinement_;
-  current_ = filling_;
+  settled_ = current_ = filling_;
   redetermine_ = true;
   ++r.sweeps;
   if (!retreat()) {
@@ -82,19 +62,21 @@ Status Localizer::refine(std::uint32_t max_points) {
     refinement_ = Refinement();
     refinement_.active = true;
     redetermine_ = true;
+    settle_all();
     solve();
     begin_sweep();
   }
   Status status = Status::more_work;
   for (std::uint32_t k = 0; k < max_points; ++k) {
-    refresh_next(Vec6::Zero());
+    const Measurement m = measure(points_[cursor_], pose_);
+    if (m.changed) ++refinement_.changed;
+    review(cursor_, m);
+    include(filling_, points_[cursor_], m, Vec6::Zero());
+    ++cursor_;
     if (cursor_ < stored_) continue;
     if (!finish_refine_sweep(status)) continue;
     refinement_.active = false;
-    for (std::uint32_t i = 0; i < stored_; ++i) {
-      judge(points_[i]);
-      if (points_[i].state != points_[i].told_state || points_[i].action != points_[i].told_action) queue_revision(i);
-    }
+    for (std::uint32_t i = 0; i < stored_; ++i) rejudge(i);
     return status;
   }
   return status;

@@ -20,6 +20,7 @@ struct StoredPoint {
   PointState state = PointState::pending, told_state = PointState::pending;  ///< told: what the caller knows
   Action action = Action::none, told_action = Action::none;
   bool queued = false;          ///< waits in the ring of revisions
+  bool fresh = false;           ///< its row is taken anew in every push
   bool outside_window = false;  ///< does not count in the fit
 };
 

@@ -1,0 +1,137 @@
+#include "core/localizer.hpp"
+
+namespace bladefit {
+namespace {
+
+/// The newest points are fresh, and so are contested ones: those with a rival foot nearer than this [half diagonals]. A
+/// small motion of the pose can move their foot to the other side of an edge, which no expansion foretells.
+constexpr std::uint32_t kNewest = 4;
+constexpr double kContestedLead = 3e-4;
+
+}  // namespace
+
+bool Localizer::contested(const StoredPoint& point) const { return point.lead < kContestedLead * frame_.length; }
+
+void Localizer::include(FitSums& sums, const StoredPoint& point, const Measurement& m, const Vec6& x) const {
+  if (left_out(point, m.foot)) return;
+  sums.model.add(distance_row(m.projection, m.foot, m.r, x, frame_), x);
+  const Region region = region_at(config_.tolerance, m.foot.patch, m.foot.u, m.foot.v);
+  sums.regions[static_cast<std::size_t>(region)].add(m.foot.distance, point.sequence);
+}
+
+void Localizer::include(FitSums& sums, const StoredPoint& point, const Measurement& m) const {
+  include(sums, point, m, motion_between(sums.model.reference, pose_, frame_));
+}
+
+void Localizer::note(StoredPoint& point, const Measurement& m) {
+  point.foot = m.foot;
+  point.span = m.projection.place.span;
+  point.revision = revision_;
+  if (!m.searched) return;
+  point.searched_at = m.r;
+  point.lead = m.lead;
+}
+
+StoredPoint* Localizer::store(const StoredPoint& point, const Measurement& m) {
+  last_sequence_ = point.sequence;
+  last_place_ = m.projection.place;
+  ++accepted_;
+  if (stored_ == config_.capacity) {
+    for (FitSums* sums : {&settled_, &filling_, &frozen_}) include(*sums, point, m);
+    return nullptr;
+  }
+  points_[stored_] = point;
+  note(points_[stored_], m);
+  if (fresh_count_ == kFreshPlaces) settle_one(0);
+  make_fresh(stored_);
+  // The new one is active at once; those that join at the end of the sweep stay behind it.
+  std::swap(fresh_[fresh_count_ - 1], fresh_[active_count_]);
+  ++active_count_;
+  return &points_[stored_++];
+}
+
+void Localizer::make_fresh(std::uint32_t index) {
+  points_[index].fresh = true;
+  fresh_[fresh_count_++] = index;
+}
+
+/// Gives the row of an active fresh point to the sums that last until the end of the next sweep.
+void Localizer::settle_one(std::uint32_t place) {
+  const std::uint32_t index = fresh_[place];
+  StoredPoint& point = points_[index];
+  for (std::uint32_t k = place; k + 1 < fresh_count_; ++k) fresh_[k] = fresh_[k + 1];
+  --fresh_count_;
+  --active_count_;
+  point.fresh = false;
+  const Measurement m = measure(point, pose_);
+  note(point, m);
+  include(settled_, point, m);
+  if (index < cursor_) include(filling_, point, m);
+}
+
+/// Settles the oldest fresh points that are neither contested nor among the newest few.
+void Localizer::settle() {
+  std::uint32_t calm = 0;
+  for (std::uint32_t k = active_count_; k-- > 0;) {
+    if (!contested(points_[fresh_[k]]) && ++calm > kNewest) settle_one(k);
+  }
+}
+
+/// Settles every point: batch fits and refinements go over all of them in sweeps.
+void Localizer::settle_all() {
+  while (active_count_ > 0) settle_one(active_count_ - 1);
+  for (std::uint32_t k = 0; k < fresh_count_; ++k) points_[fresh_[k]].fresh = false;
+  fresh_count_ = 0;
+  current_ = settled_;
+}
+
+/// Adds the rows of the fresh points at the present pose to the settled ones; that of the very newest is at hand.
+void Localizer::gather(const Measurement& newest) {
+  current_ = settled_;
+  const Vec6 x = motion_between(current_.model.reference, pose_, frame_);
+  for (std::uint32_t k = 0; k < active_count_; ++k) {
+    StoredPoint& point = points_[fresh_[k]];
+    if (point.sequence == last_sequence_) {
+      include(current_, point, newest, x);
+      continue;
+    }
+    const Measurement m = measure(point, pose_);
+    review(fresh_[k], m);
+    include(current_, point, m, x);
+  }
+}
+
+/// Takes over a new foot and queues the verdict where it has changed.
+void Localizer::review(std::uint32_t index, const Measurement& m) {
+  note(points_[index], m);
+  rejudge(index);
+}
+
+void Localizer::rejudge(std::uint32_t index) {
+  StoredPoint& point = points_[index];
+  judge(point);
+  if (point.state != point.told_state || point.action != point.told_action) queue_revision(index);
+}
+
+/// Projects up to `budget` more settled points anew; at the end of the sweep the new sums take the place of the old.
+void Localizer::refresh(std::uint32_t budget) {
+  const Vec6 x = motion_between(filling_.model.reference, pose_, frame_);
+  for (std::uint32_t k = 0; k < budget && cursor_ < stored_; ++k, ++cursor_) {
+    StoredPoint& point = points_[cursor_];
+    if (point.fresh) continue;
+    const Measurement m = measure(point, pose_);
+    review(cursor_, m);
+    if (contested(point) && fresh_count_ + kNewest < kFreshPlaces) {
+      make_fresh(cursor_);  // its old row is still in the sums in use: it becomes active when they are given up
+    } else {
+      include(filling_, point, m, x);
+    }
+  }
+  if (cursor_ < stored_) return;
+  settled_ = filling_;
+  active_count_ = fresh_count_;
+  redetermine_ = true;
+  begin_sweep();
+}
+
+}  // namespace bladefit
