@@ -205,7 +205,7 @@ TEST(Verdicts, SurviveAbsurdCoordinates) {
     (void)stream->push({++sequence, 0, {x, x, x}, {}, 0}, verdict);
     (void)stream->push({++sequence, 0, {0, -x, x}, {1, 0, 0}, 0}, verdict);
   }
-  (void)stream->refine(1000);
+  (void)stream->refine(24);
   (void)stream->fit();
   stream->reset();
   push_all(*stream, s.points);
