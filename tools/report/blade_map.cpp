@@ -29,14 +29,10 @@ std::vector<MapPanel> place_panels(const std::set<std::uint32_t>& patches) {
   const double height = columns == 1 ? kOneHeight : kSmallHeight;
   std::vector<MapPanel> panels;
   for (const std::uint32_t patch : patches) {
-    const auto column = static_cast<double>(panels.size() % columns),
-               row = static_cast<double>(panels.size() / columns);
-    panels.push_back({fmt::format("Patch {}", patch),
-                      {.patch = patch},
-                      kLeft + column * (width + kGap),
-                      kTop + row * (kTop + height + kBottom),
-                      width,
-                      height});
+    const std::size_t column = panels.size() % columns, row = panels.size() / columns;
+    const double left = kLeft + static_cast<double>(column) * (width + kGap);
+    const double top = kTop + static_cast<double>(row) * (kTop + height + kBottom);
+    panels.push_back({fmt::format("Patch {}", patch), {.patch = patch}, left, top, width, height});
   }
   return panels;
 }
@@ -116,7 +112,8 @@ std::string mark_legend(double x, double y, const SessionReport& report, const C
         Entry{PointState::in, 0.4 * full, "in tolerance or not judged"},
         Entry{PointState::pending, 0, "not decided yet"}, Entry{PointState::rejected, 0, "does not count"}}) {
     if (!has_state(report, entry.state)) continue;
-    const double left = x + 110.0 * static_cast<double>(place % 2), top = y + 20.0 * static_cast<double>(place / 2);
+    const std::size_t column = place % 2, row = place / 2;
+    const double left = x + 110.0 * static_cast<double>(column), top = y + 20.0 * static_cast<double>(row);
     const ReportPoint sample = {.distance = entry.distance, .state = entry.state};
     svg += point_mark(sample, left, top, scale) + caption(left + 12, top + 4, entry.meaning) + "\n";
     ++place;

@@ -133,13 +133,16 @@ std::string panel_frame(const MapPanel& panel, const std::vector<ParameterBox>& 
 }
 
 std::string point_mark(const ReportPoint& point, double x, double y, const ColourScale& scale) {
-  if (point.state == PointState::rejected)
+  if (point.state == PointState::rejected) {
     return fmt::format("<path class=\"rejected\" d=\"M{:.1f} {:.1f}l5 5m0 -5l-5 5\"/>", x - 2.5, y - 2.5);
-  if (point.state == PointState::pending)
+  }
+  if (point.state == PointState::pending) {
     return fmt::format("<circle class=\"pending\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, kPointRadius);
-  if (point.state == PointState::in)
+  }
+  if (point.state == PointState::in) {
     return fmt::format("<circle class=\"in\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>", x, y, kPointRadius,
                        scale.colour(point.distance));
+  }
   return fmt::format("<circle class=\"out\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>", x, y, kOutRadius,
                      scale.colour(point.distance)) +
          glyph(point.distance > 0, x, y, scale.is_dark(point.distance));
