@@ -124,7 +124,8 @@ Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& 
   m.projection = project_local(surface_, m.r, {point.span, point.foot.u, point.foot.v});
   const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
                         !faces_probe(surface_, m.projection, query.approach);
-  // A distance changes by no more than the point moves: within half its lead, the tracked foot is proven the nearest.
+  // Distances change by no more than the point moves, so within half its lead no rival that was there can have come
+  // nearer than the tracked foot. A newborn one could: refine() ends with a search of every foot.
   const bool far = 2.0 * (m.r - point.searched_at).norm() >= point.lead;
   if (doubtful || far) {
     const GlobalProjection global = project_global(surface_, query, &m.projection);

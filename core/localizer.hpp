@@ -86,9 +86,9 @@ class Localizer {
   /// Takes the next verdict that a later fit has changed. False when there is none.
   [[nodiscard]] bool next_revision(Verdict& verdict);
 
-  /// Projects up to `max_points` stored points anew and moves the pose, until the fit has converged and every foot is
-  /// proven the nearest: searched globally, or moved by less than half its lead since. Returns ok (converged),
-  /// underdetermined (converged in the determined directions), more_work, or iteration_cap.
+  /// Projects up to `max_points` stored points anew and moves the pose, until it stands still and a last sweep has
+  /// searched every foot globally and found no other. Returns ok (converged), underdetermined (converged in the
+  /// determined directions), more_work, or iteration_cap.
   [[nodiscard]] Status refine(std::uint32_t max_points);
 
   /// No more points will come: from here on refine() uses every direction the points determine at all, however weakly.
@@ -117,6 +117,7 @@ class Localizer {
   };
   struct Refinement {
     bool active = false;
+    bool thorough = false;  ///< every foot of this sweep is searched globally
     std::uint32_t sweeps = 0, changed = 0;
     double last_value = 0;  ///< sum 1/2 d^2 of the sweep before
     std::uint32_t last_count = 0;

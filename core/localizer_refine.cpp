@@ -44,11 +44,12 @@ bool Localizer::finish_refine_sweep(Status& status) {
     r.last_pose = pose_;
     const double step = solve();
     r.last_step = motion_between(r.last_pose, pose_, frame_);
-    if (r.changed == 0 && step <= kConvergedBelow * frame_.length) {
+    if (r.thorough && r.changed == 0 && step <= kConvergedBelow * frame_.length) {
       converged_ = determination_.rank == 6;
       status = converged_ ? Status::ok : Status::underdetermined;
     }
   }
+  r.thorough = r.last_step.norm() <= kCheckedAbove * frame_.length;
   r.changed = 0;
   if (status == Status::more_work && r.sweeps >= kMaxSweeps) status = Status::iteration_cap;
   begin_sweep();
@@ -68,6 +69,7 @@ Status Localizer::refine(std::uint32_t max_points) {
   }
   Status status = Status::more_work;
   for (std::uint32_t k = 0; k < max_points; ++k) {
+    if (refinement_.thorough) points_[cursor_].lead = 0.0;
     const Measurement m = measure(points_[cursor_], pose_);
     if (m.changed) ++refinement_.changed;
     review(cursor_, m);
