@@ -32,7 +32,9 @@ void push(benchmark::State& state, const char* name) {
     }
   }
   std::sort(least.begin(), least.end());
-  const auto quantile = [&](double q) { return least[static_cast<std::size_t>(q * static_cast<double>(least.size() - 1))]; };
+  const auto quantile = [&](double q) {
+    return least[static_cast<std::size_t>(q * static_cast<double>(least.size() - 1))];
+  };
   state.counters["median_us"] = quantile(0.5);
   state.counters["p99.9_us"] = quantile(0.999);
   state.counters["max_us"] = least.back();

@@ -61,7 +61,7 @@ class Situation {
   [[nodiscard]] double bend_length() const {
     const double curvature = std::abs(strongest_curvature(surface_, projection_.place));
     const double free = std::abs(1.0 / curvature - std::abs(projection_.offset.norm()));
-    return std::min({frame_.length, 1.0 / curvature, free, off_surface()});
+    return std::min({0.05 * frame_.length, 1.0 / curvature, free, off_surface()});
   }
 
  private:
