@@ -11,9 +11,9 @@
 namespace bladefit {
 
 struct PanelServerSettings {
-  std::string host = "127.0.0.1";  ///< address to listen at; Modbus has no authentication, so loopback by default
-  std::uint16_t port = 1503;       ///< 0 = any free port
-  bool commands = false;           ///< whether clients may press the coils
+  std::string host = "127.0.0.1";    ///< address to listen at; Modbus has no authentication, so loopback by default
+  std::uint16_t port = 1503;         ///< 0 = any free port
+  bool commands = false;             ///< whether clients may press the coils
   std::vector<std::string> allow{};  ///< numeric addresses that may connect; empty = every one that reaches `host`
 };
 
