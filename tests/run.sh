@@ -2,7 +2,7 @@
 # Installs what is needed, builds, and runs every test. Closes with one line: "bladefit: N passed, N failed".
 #   tests/run.sh            format, and all tests in the preset dev
 #   tests/run.sh PRESET     the tests of one preset only: dev, release, asan-ubsan or tsan
-#   tests/run.sh lint       clang-tidy over the product (an hour on two cores)
+#   tests/run.sh lint       clang-tidy over the product (slow)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
