@@ -1,8 +1,11 @@
 #include "core/geometry/design_image.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+
+#include "core/geometry/bezier.hpp"
 
 namespace bladefit {
 namespace {
@@ -65,18 +68,38 @@ bool cone_valid(const ImageSpan& s) {
   return s.cone_cosine == -1.0 || std::abs(n2 - 1.0) < 1e-9;
 }
 
-/// Control points finite, weights positive, and inside the leaf's box, which the search relies on.
+/// Every number finite and every range the right way round. That the bounds hold is the compiler's promise, kept by the
+/// CRC: it cannot be checked at this cost.
+bool bounds_valid(const ImageBounds& b) {
+  const auto rises = [](const double* low, const double* high, int count) {
+    return std::equal(low, low + count, high,
+                      [](double l, double h) { return std::isfinite(l) && std::isfinite(h) && l <= h; });
+  };
+  bool valid = finite3(b.middle) && finite3(b.stretch) && rises(b.low, b.high, 3) && rises(b.self_low, b.self_high, 5);
+  for (const auto& axis : b.axis) valid = valid && finite3(axis);
+  for (const auto& derivative : b.derivative) valid = valid && finite3(derivative);
+  for (const auto& spread : b.spread) valid = valid && finite3(spread) && *std::min_element(spread, spread + 3) >= 0.0;
+  return valid;
+}
+
+/// The sides on the patch's edges are marked, and nothing else is set.
+bool ends_valid(const ImageSpan& s, const ImagePatch& p) {
+  const std::uint32_t edges = (s.iu == 0 ? kEndsAtLowU : 0U) | (s.iu + 1 == p.spans_u ? kEndsAtHighU : 0U) |
+                              (s.iv == 0 ? kEndsAtLowV : 0U) | (s.iv + 1 == p.spans_v ? kEndsAtHighV : 0U);
+  return (s.ends & edges) == edges && s.ends < 16U;
+}
+
+/// Control points finite, weights positive.
 bool net_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p) {
   const std::uint64_t count = static_cast<std::uint64_t>(p.degree_u + 1) * (p.degree_v + 1);
   const auto coefficients = image.coefficients();
   if (s.first_coefficient > coefficients.size() || 4 * count > coefficients.size() - s.first_coefficient) return false;
-  const ImageNode& leaf = image.nodes()[s.leaf];
-  for (const double* c = &coefficients[s.first_coefficient]; c != &coefficients[s.first_coefficient] + 4 * count;
-       c += 4) {
+  const double* first = &coefficients[s.first_coefficient];
+  for (const double* c = first; c != first + 4 * count; c += 4) {
     const double w = c[3];
     if (!(w > 0.0) || !std::isfinite(w) || (p.rational == 0 && w != 1.0)) return false;
     for (int k = 0; k < 3; ++k) {
-      if (!(c[k] / w >= leaf.box_min[k] && c[k] / w <= leaf.box_max[k])) return false;
+      if (!std::isfinite(c[k] / w)) return false;
     }
   }
   return true;
@@ -90,11 +113,50 @@ bool spans_valid(const DesignImage& image) {
     if (s.iu >= p.spans_u || s.iv >= p.spans_v ||
         i != p.first_span + static_cast<std::uint64_t>(s.iu) * p.spans_v + s.iv)
       return false;
-    if (s.leaf >= image.nodes().size() || image.nodes()[s.leaf].right != 0 || image.nodes()[s.leaf].span != i)
-      return false;
-    if (!cone_valid(s) || !net_valid(image, s, p)) return false;
+    if (!cone_valid(s) || !ends_valid(s, p) || !net_valid(image, s, p)) return false;
   }
   return true;
+}
+
+/// The control points of the rectangle are inside the leaf's box, which the search relies on.
+bool boxed(const DesignImage& image, const ImageLeaf& leaf) {
+  const ImageSpan& s = image.spans()[leaf.span];
+  const ImagePatch& p = image.patches()[s.patch];
+  const ImageNode& node = image.nodes()[leaf.node];
+  BezierNet net;
+  restrict_net(&image.coefficients()[s.first_coefficient], p.degree_u, p.degree_v,
+               {leaf.s_min, leaf.s_max, leaf.t_min, leaf.t_max}, net);
+  for (std::uint32_t n = 0; n < (p.degree_u + 1) * (p.degree_v + 1); ++n) {
+    const Homogeneous& c = net.points[n];
+    for (int k = 0; k < 3; ++k) {
+      if (!(c[k] / c[3] >= node.box_min[k] && c[k] / c[3] <= node.box_max[k])) return false;
+    }
+  }
+  return true;
+}
+
+bool rectangle_valid(const ImageLeaf& leaf) {
+  return leaf.s_min >= 0.0 && leaf.s_min < leaf.s_max && leaf.s_max <= 1.0 && leaf.t_min >= 0.0 &&
+         leaf.t_min < leaf.t_max && leaf.t_max <= 1.0;
+}
+
+/// The leaves of a span follow each other and cover its area: they are cut by halves, so that areas add up exactly.
+bool leaves_valid(const DesignImage& image) {
+  std::uint32_t span = 0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < image.leaves().size(); ++i) {
+    const ImageLeaf& leaf = image.leaves()[i];
+    if (leaf.span != span || !rectangle_valid(leaf) || !bounds_valid(leaf.bounds)) return false;
+    if (leaf.node >= image.nodes().size() || image.nodes()[leaf.node].right != 0 || image.nodes()[leaf.node].leaf != i)
+      return false;
+    if (!boxed(image, leaf)) return false;
+    area += (leaf.s_max - leaf.s_min) * (leaf.t_max - leaf.t_min);
+    if (area != 1.0) continue;
+    ++span;
+    area = 0.0;
+    if (span == image.spans().size()) return i + 1 == image.leaves().size();
+  }
+  return false;
 }
 
 bool contains(const ImageNode& outer, const ImageNode& inner) {
@@ -105,15 +167,15 @@ bool contains(const ImageNode& outer, const ImageNode& inner) {
 }
 
 /// A full binary tree in depth-first order, boxes nested, no deeper than kMaxTreeDepth.
-bool tree_valid(std::span<const ImageNode> nodes, std::size_t span_count) {
-  if (nodes.size() != 2 * span_count - 1) return false;
+bool tree_valid(std::span<const ImageNode> nodes, std::size_t leaf_count) {
+  if (nodes.size() != 2 * leaf_count - 1) return false;
   std::array<std::uint32_t, kMaxTreeDepth> pending{};  // right children still to come, innermost last
   std::size_t depth = 0;
   for (std::uint32_t k = 0; k < nodes.size(); ++k) {
     const ImageNode& node = nodes[k];
     if (!finite3(node.box_min) || !finite3(node.box_max)) return false;
     if (node.right == 0) {
-      if (node.span >= span_count) return false;
+      if (node.leaf >= leaf_count) return false;
       if (depth == 0) return k + 1 == nodes.size();
       if (pending[--depth] != k + 1) return false;
       continue;
@@ -132,10 +194,11 @@ Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
   if (image_crc(bytes) != h.crc32) return Status::bad_crc;
   const bool arrays = array_fits<ImagePatch>(h.patches_offset, h.patch_count, h.total_size) &&
                       array_fits<ImageSpan>(h.spans_offset, h.span_count, h.total_size) &&
+                      array_fits<ImageLeaf>(h.leaves_offset, h.leaf_count, h.total_size) &&
                       array_fits<ImageNode>(h.nodes_offset, h.node_count, h.total_size) &&
                       array_fits<double>(h.breaks_offset, h.break_count, h.total_size) &&
                       array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size);
-  const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.node_count >= 1;
+  const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.leaf_count >= 1 && h.node_count >= 1;
   const bool fields =
       h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && finite3(h.box_min) && finite3(h.box_max);
   return arrays && counts && fields ? Status::ok : Status::bad_content;
@@ -165,10 +228,12 @@ Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {
   if (const Status status = header_status(bytes, h); status != Status::ok) return status;
   candidate.patches_ = view<ImagePatch>(bytes, h.patches_offset, h.patch_count);
   candidate.spans_ = view<ImageSpan>(bytes, h.spans_offset, h.span_count);
+  candidate.leaves_ = view<ImageLeaf>(bytes, h.leaves_offset, h.leaf_count);
   candidate.nodes_ = view<ImageNode>(bytes, h.nodes_offset, h.node_count);
   candidate.breaks_ = view<double>(bytes, h.breaks_offset, h.break_count);
   candidate.coefficients_ = view<double>(bytes, h.coefficients_offset, h.coefficient_count);
-  if (!tree_valid(candidate.nodes_, candidate.spans_.size()) || !patches_valid(candidate) || !spans_valid(candidate))
+  if (!tree_valid(candidate.nodes_, candidate.leaves_.size()) || !patches_valid(candidate) || !spans_valid(candidate) ||
+      !leaves_valid(candidate))
     return Status::bad_content;
   image = candidate;
   return Status::ok;

@@ -12,7 +12,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 1;
+inline constexpr std::uint32_t kImageVersion = 2;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -26,8 +26,9 @@ struct ImageHeader {
   std::uint32_t design_unit;  ///< DesignUnit of the file it was compiled from; the numbers here are mm all the same
   std::int32_t outward;       ///< +1 or -1: outward normal = outward * (Su x Sv)
   std::uint32_t patch_count, span_count, node_count, break_count;
+  std::uint32_t leaf_count, spare;  ///< spare: 0
   std::uint64_t coefficient_count;  ///< doubles
-  std::uint64_t patches_offset, spans_offset, nodes_offset, breaks_offset, coefficients_offset;
+  std::uint64_t patches_offset, spans_offset, leaves_offset, nodes_offset, breaks_offset, coefficients_offset;
   double box_min[3], box_max[3];  ///< of the control points [mm]
 };
 
@@ -40,25 +41,52 @@ struct ImagePatch {
   std::uint32_t rational;                      ///< 0: every weight is 1
 };
 
+/// Sides of a span beyond which the surface ends or is not smooth: bits of ImageSpan::ends.
+inline constexpr std::uint32_t kEndsAtLowU = 1, kEndsAtHighU = 2, kEndsAtLowV = 4, kEndsAtHighV = 8;
+
 /// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
 /// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w).
 struct ImageSpan {
   std::uint32_t patch, iu, iv;
-  std::uint32_t leaf;  ///< index of the node whose leaf it is
+  std::uint32_t ends;  ///< kEndsAt... bits: edges of the patch and creases
   std::uint64_t first_coefficient;
   double cone_axis[3];  ///< every outward normal of the span is within the cone about this unit axis
   double cone_cosine;   ///< cosine of the half angle; -1 where no bound is known
 };
 
-/// Node of the binary bounding tree, in depth-first order: the left child of node k is k + 1.
-struct ImageNode {
-  double box_min[3], box_max[3];  ///< contains every control point below it [mm]
-  std::uint32_t right;            ///< index of the right child; 0 for a leaf
-  std::uint32_t span;             ///< of a leaf; 0 in inner nodes
+/// Bounds of a rectangle of a span about its middle c: what lets most of them be judged without looking at control
+/// points. Vectors are in the frame of `axis`, whose first row is the normal in the middle.
+/// First derivatives are along the rectangle's own parameters s, t in 0..1. Second derivatives are along a, b, linear
+/// in s and t, with Sa = stretch[0] Ss and Sb = stretch[1] St + stretch[2] Ss, which are orthonormal in the middle:
+/// there the Hessian of a squared distance is near to the unit matrix. Order: s, t, aa, ab, bb.
+struct ImageBounds {
+  double middle[3];         ///< c, in design coordinates [mm]
+  double axis[3][3];        ///< orthonormal, one a row
+  double low[3], high[3];   ///< axis[k] . (S - c) lies between these [mm]
+  double stretch[3];        ///< [1/mm]
+  double derivative[5][3];  ///< of S, in the middle [mm, mm, 1/mm ...]
+  double spread[5][3];      ///< no component of a derivative is farther from that in the middle
+  double self_low[5];       ///< the same derivatives of 1/2 |S - c|^2 lie between these [mm^2, mm^2, 1 ...]
+  double self_high[5];
 };
 
-static_assert(sizeof(ImageHeader) == 144 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 &&
-              sizeof(ImageNode) == 56);
+/// A rectangle of a span, so small that its bounds tell most. The leaves of a span tile it.
+struct ImageLeaf {
+  std::uint32_t span;
+  std::uint32_t node;                 ///< index of its node
+  double s_min, s_max, t_min, t_max;  ///< parameters of the span, 0..1
+  ImageBounds bounds;
+};
+
+/// Node of the binary bounding tree, in depth-first order: the left child of node k is k + 1.
+struct ImageNode {
+  double box_min[3], box_max[3];  ///< contains the control points of every rectangle below it [mm]
+  std::uint32_t right;            ///< index of the right child; 0 for a leaf
+  std::uint32_t leaf;             ///< index into the leaves; 0 in inner nodes
+};
+
+static_assert(sizeof(ImageHeader) == 160 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 &&
+              sizeof(ImageBounds) == 488 && sizeof(ImageLeaf) == 528 && sizeof(ImageNode) == 56);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.
 [[nodiscard]] std::uint32_t image_crc(std::span<const std::byte> image);
@@ -74,6 +102,7 @@ class DesignImage {
   [[nodiscard]] const ImageHeader& header() const { return *header_; }
   [[nodiscard]] std::span<const ImagePatch> patches() const { return patches_; }
   [[nodiscard]] std::span<const ImageSpan> spans() const { return spans_; }
+  [[nodiscard]] std::span<const ImageLeaf> leaves() const { return leaves_; }
   [[nodiscard]] std::span<const ImageNode> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const double> breaks() const { return breaks_; }
   [[nodiscard]] std::span<const double> coefficients() const { return coefficients_; }
@@ -82,6 +111,7 @@ class DesignImage {
   const ImageHeader* header_ = nullptr;
   std::span<const ImagePatch> patches_;
   std::span<const ImageSpan> spans_;
+  std::span<const ImageLeaf> leaves_;
   std::span<const ImageNode> nodes_;
   std::span<const double> breaks_;
   std::span<const double> coefficients_;

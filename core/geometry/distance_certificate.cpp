@@ -27,10 +27,6 @@ constexpr auto make_inverse_binomials() {
 }
 constexpr auto kInverseBinomial = make_inverse_binomials();
 
-struct Range {
-  double least, most;
-};
-
 /// Coefficients row by row in u; Eigen::Dynamic sizes live in place too, up to the largest degree.
 template <int Rows, int Columns>
 using Coefficients = Eigen::Array<double, Rows, Columns, Eigen::RowMajor, Rows == Eigen::Dynamic ? kBinomialRows : Rows,
@@ -52,47 +48,19 @@ Coefficients<R, less(C)> rise_v(const Coefficients<R, C>& c) {
 
 /// Extremes of the coefficients times `factor`, made wider by the rounding they may hold.
 template <int R, int C>
-Range range_of(const Coefficients<R, C>& c, double factor, double rounding) {
+ValueRange range_of(const Coefficients<R, C>& c, double factor, double rounding) {
   return {factor * (c.minCoeff() - rounding), factor * (c.maxCoeff() + rounding)};
 }
 
-int sign_of(const Range& range) { return range.least > 0.0 ? 1 : range.most < 0.0 ? -1 : 0; }
-
-/// Extreme second differences, scaled to bounds of the second derivatives.
-struct HessianRange {
-  Range uu, uv, vv;
-};
-
-/// Sylvester's criterion in the worst case of the ranges.
-bool strictly_convex(const HessianRange& h, PieceShape shape) {
-  if (!shape.along_u) return !shape.along_v || h.vv.least > 0.0;
-  if (!shape.along_v) return h.uu.least > 0.0;
-  const double uv = std::max(std::abs(h.uv.least), std::abs(h.uv.most));
-  return h.uu.least > 0.0 && h.vv.least > 0.0 && h.uu.least * h.vv.least > uv * uv * (1.0 + 1e-9);
-}
-
-/// A second derivative or the determinant is negative everywhere.
-bool nowhere_convex(const HessianRange& h, PieceShape shape) {
-  if ((shape.along_u && h.uu.most < 0.0) || (shape.along_v && h.vv.most < 0.0)) return true;
-  if (!shape.along_u || !shape.along_v) return false;
-  const double uv = h.uv.least > 0.0 ? h.uv.least : h.uv.most < 0.0 ? -h.uv.most : 0.0;
-  return uv * uv > h.uu.most * h.vv.most * (1.0 + 1e-9);
-}
-
 template <int R, int C>
-MinimumProof prove(const Coefficients<R, C>& g, PieceShape shape, double rounding) {
+DerivativeRanges ranges_of(const Coefficients<R, C>& g, double rounding) {
   const Coefficients<less(R), C> g_u = rise_u<R, C>(g);
   const Coefficients<R, less(C)> g_v = rise_v<R, C>(g);
-  MinimumProof proof;
-  if (shape.along_u) proof.monotone_u = sign_of(range_of<less(R), C>(g_u, 1.0, rounding));
-  if (shape.along_v) proof.monotone_v = sign_of(range_of<R, less(C)>(g_v, 1.0, rounding));
   const auto m = static_cast<double>(g.rows() - 1), n = static_cast<double>(g.cols() - 1);
-  const HessianRange h{range_of<less(less(R)), C>(rise_u<less(R), C>(g_u), m * (m - 1.0), rounding),
-                       range_of<less(R), less(C)>(rise_v<less(R), C>(g_u), m * n, rounding),
-                       range_of<R, less(less(C))>(rise_v<R, less(C)>(g_v), n * (n - 1.0), rounding)};
-  proof.convex = strictly_convex(h, shape);
-  proof.no_minimum = nowhere_convex(h, shape);
-  return proof;
+  return {range_of<less(R), C>(g_u, m, rounding), range_of<R, less(C)>(g_v, n, rounding),
+          range_of<less(less(R)), C>(rise_u<less(R), C>(g_u), m * (m - 1.0), rounding),
+          range_of<less(R), less(C)>(rise_v<less(R), C>(g_u), m * n, rounding),
+          range_of<R, less(less(C))>(rise_v<R, less(C)>(g_v), n * (n - 1.0), rounding)};
 }
 
 }  // namespace
@@ -165,11 +133,11 @@ bool DistanceForm::farther(double tolerance) const {
   return least >= -tolerance * least_weight_ * least_weight_;
 }
 
-MinimumProof DistanceForm::proof(PieceShape shape) const {
+DerivativeRanges DistanceForm::ranges() const {
   const double rounding = 1e-14 * size_;
-  if (m_ == 6 && n_ == 6) return prove<7, 7>(Eigen::Map<const Coefficients<7, 7>>(c_.data()), shape, rounding);
+  if (m_ == 6 && n_ == 6) return ranges_of<7, 7>(Eigen::Map<const Coefficients<7, 7>>(c_.data()), rounding);
   using Any = Coefficients<Eigen::Dynamic, Eigen::Dynamic>;
-  return prove<Eigen::Dynamic, Eigen::Dynamic>(Eigen::Map<const Any>(c_.data(), m_ + 1, n_ + 1), shape, rounding);
+  return ranges_of<Eigen::Dynamic, Eigen::Dynamic>(Eigen::Map<const Any>(c_.data(), m_ + 1, n_ + 1), rounding);
 }
 
 }  // namespace bladefit

@@ -1,13 +1,9 @@
 #pragma once
 #include "core/geometry/bezier.hpp"
 #include "core/geometry/foot.hpp"
+#include "core/geometry/minimum_proof.hpp"
 
 namespace bladefit {
-
-/// Directions in which a piece has an extent: an edge of a patch has one, a corner none.
-struct PieceShape {
-  bool along_u = true, along_v = true;
-};
 
 /// Distances [mm] between which the whole piece lies, from a plane across the direction from r to its middle and from
 /// the farthest control point. Cost: two four-vector products a control point.
@@ -16,19 +12,12 @@ struct DistanceRange {
 };
 [[nodiscard]] DistanceRange distance_range(const BezierNet& net, const Vec3& r);
 
-/// What the Bernstein coefficients of a distance form prove about its minima on the piece.
-struct MinimumProof {
-  int monotone_u = 0;  ///< +1 (-1): it rises (falls) with u everywhere; 0 = not proven
-  int monotone_v = 0;
-  bool no_minimum = false;  ///< its Hessian is nowhere positive semidefinite: no local minimum inside
-  bool convex = false;      ///< it is strictly convex
-};
-
 /// g(u, v) = |A - w r|^2 - (bound w)^2 = w^2 (distance^2 - bound^2) of a piece of surface, a polynomial of twice the
 /// degree in Bernstein form.
 /// Where g is convex, a point at distance `bound` that satisfies the first-order conditions is the nearest of the
 /// piece. With weights that are not all equal, a local minimum of the distance at D is a stationary point of the g with
-/// bound D: its coefficients are linear in D^2, so what is proven at two bounds holds at all between them.
+/// bound D: its coefficients are linear in D^2, so the hull of its ranges at two bounds
+/// holds at all between them.
 class DistanceForm {
  public:
   /// Cost: (order_u order_v)^2 / 2 four-vector products, about 140 for a bicubic net.
@@ -37,8 +26,8 @@ class DistanceForm {
   /// No point of the piece is nearer than the bound: no coefficient is below -tolerance [mm^2].
   [[nodiscard]] bool farther(double tolerance) const;
 
-  /// Cost: about 10 operations a coefficient.
-  [[nodiscard]] MinimumProof proof(PieceShape shape) const;
+  /// Ranges of its derivatives, from the differences of the coefficients. Cost: about 10 operations a coefficient.
+  [[nodiscard]] DerivativeRanges ranges() const;
 
  private:
   static constexpr std::size_t kMaxProductOrder = 2 * kMaxDegree + 1;

@@ -17,17 +17,19 @@ struct GlobalProjection {
   /// No other local minimum (that faces the probe) is nearer than this much beyond the nearest; at most query.margin
   /// [mm]. While the point moves by less than half of it, the local minimum it is tracked to stays the nearest.
   double lead = 0;
-  std::uint32_t pieces = 0;  ///< pieces of surface that were looked at
+  std::uint32_t pieces = 0;  ///< pieces of leaves that were looked at, where their bounds did not suffice
+  bool exhausted = false;    ///< a cap was reached
 };
 
-/// Pieces that one search may look at. Typical is 1 to 20; a point on the medial axis of a rounding needs the most.
+/// Pieces that one search may look at. Typical is none; a point on the medial axis of a rounding needs the most.
 inline constexpr std::uint32_t kMaxPieces = 8192;
 
-/// The nearest point of the whole design, by branch and bound over the bounding tree and, inside the spans, over
-/// rectangles whose distance is bounded by Bernstein coefficients. With an approach vector: the nearest local minimum
-/// whose outward normal faces the probe, n . approach < 0 (thesis 4; 2 % thick blades need it); where there is none,
-/// the nearest point of all. `hint` (may be null) is a projection to start from; the answer does not depend on it
-/// beyond rounding. Proven to within 1e-10 of the half diagonal of the design.
+/// The nearest point of the whole design, by branch and bound over the bounding tree and the bounds of its leaves and,
+/// where these do not suffice, over rectangles inside the leaves whose distance is bounded by Bernstein coefficients.
+/// With an approach vector: the nearest local minimum whose outward normal faces the probe, n . approach < 0 (thesis 4;
+/// 2 % thick blades need it); where there is none, the nearest point of all. `hint` (may be null) is a projection to
+/// start from; the answer does not depend on it beyond rounding. Proven to within 1e-10 of the half diagonal of the
+/// design.
 [[nodiscard]] GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query,
                                               const Projection* hint);
 

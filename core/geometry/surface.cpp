@@ -14,6 +14,27 @@ SpanDomain Surface::domain(std::uint32_t span_index) const {
   return {bu[0], bu[1], bv[0], bv[1]};
 }
 
+SurfacePoint projected(const HomogeneousDerivatives& h) {
+  const double inverse = 1.0 / h.a[3];
+  SurfacePoint out;
+  out.s = h.a.head<3>() * inverse;
+  out.s_u = (Vec3(h.a_u.head<3>()) - h.a_u[3] * out.s) * inverse;
+  out.s_v = (Vec3(h.a_v.head<3>()) - h.a_v[3] * out.s) * inverse;
+  out.s_uu = (Vec3(h.a_uu.head<3>()) - 2.0 * h.a_u[3] * out.s_u - h.a_uu[3] * out.s) * inverse;
+  out.s_uv = (Vec3(h.a_uv.head<3>()) - h.a_u[3] * out.s_v - h.a_v[3] * out.s_u - h.a_uv[3] * out.s) * inverse;
+  out.s_vv = (Vec3(h.a_vv.head<3>()) - 2.0 * h.a_v[3] * out.s_v - h.a_vv[3] * out.s) * inverse;
+  return out;
+}
+
+SurfacePoint scaled(const SurfacePoint& point, double per_u, double per_v) {
+  return {point.s,
+          per_u * point.s_u,
+          per_v * point.s_v,
+          per_u * per_u * point.s_uu,
+          per_u * per_v * point.s_uv,
+          per_v * per_v * point.s_vv};
+}
+
 SurfacePoint Surface::evaluate(const SurfacePlace& place) const {
   const ImagePatch& p = patch_of(place.span);
   const SpanDomain d = domain(place.span);
@@ -21,21 +42,9 @@ SurfacePoint Surface::evaluate(const SurfacePlace& place) const {
   HomogeneousDerivatives h;
   evaluate_bezier(net(place.span), p.degree_u, p.degree_v, (place.u - d.u_min) * scale_u, (place.v - d.v_min) * scale_v,
                   h);
-  const double uu = scale_u * scale_u, uv = scale_u * scale_v, vv = scale_v * scale_v;
-  SurfacePoint out{h.a.head<3>(),         h.a_u.head<3>() * scale_u, h.a_v.head<3>() * scale_v,
-                   h.a_uu.head<3>() * uu, h.a_uv.head<3>() * uv,     h.a_vv.head<3>() * vv};
-  if (p.rational == 0) return out;
-
-  // Quotient rule on A / w.
-  const double inverse = 1.0 / h.a[3];
-  const double w_u = h.a_u[3] * scale_u, w_v = h.a_v[3] * scale_v;
-  out.s *= inverse;
-  out.s_u = (out.s_u - w_u * out.s) * inverse;
-  out.s_v = (out.s_v - w_v * out.s) * inverse;
-  out.s_uu = (out.s_uu - 2.0 * w_u * out.s_u - h.a_uu[3] * uu * out.s) * inverse;
-  out.s_uv = (out.s_uv - w_u * out.s_v - w_v * out.s_u - h.a_uv[3] * uv * out.s) * inverse;
-  out.s_vv = (out.s_vv - 2.0 * w_v * out.s_v - h.a_vv[3] * vv * out.s) * inverse;
-  return out;
+  if (p.rational != 0) return scaled(projected(h), scale_u, scale_v);
+  return scaled({h.a.head<3>(), h.a_u.head<3>(), h.a_v.head<3>(), h.a_uu.head<3>(), h.a_uv.head<3>(), h.a_vv.head<3>()},
+                scale_u, scale_v);
 }
 
 void Surface::settle(SurfacePlace& place) const {

@@ -18,6 +18,12 @@ struct SurfacePoint {
   Vec3 s, s_u, s_v, s_uu, s_uv, s_vv;
 };
 
+/// A / w and its derivatives by the quotient rule, in the parameters of `h`.
+[[nodiscard]] SurfacePoint projected(const HomogeneousDerivatives& h);
+
+/// The same in parameters that run `per_u` and `per_v` times slower: derivatives are scaled.
+[[nodiscard]] SurfacePoint scaled(const SurfacePoint& point, double per_u, double per_v);
+
 /// Rectangle of one span in the normalised parameters of its patch.
 struct SpanDomain {
   double u_min, u_max, v_min, v_max;

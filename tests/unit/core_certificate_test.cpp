@@ -54,7 +54,7 @@ bool positive_definite(const FormSample& g, PieceShape shape) {
 /// Samples the piece and refutes whatever it can.
 void check_claims(const BezierNet& net, const Vec3& r, double bound, PieceShape shape, Claims& claims) {
   const DistanceForm form(net, r, bound);
-  const MinimumProof proof = form.proof(shape);
+  const MinimumProof proof = prove(form.ranges(), shape);
   const bool farther = form.farther(1e-12 * bound * bound);
   const DistanceRange range = distance_range(net, r);
   claims.farther += farther ? 1 : 0;

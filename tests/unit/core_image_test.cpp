@@ -150,6 +150,7 @@ TEST(DesignImage, ContradictionsAreRefused) {
   };
   const auto patch = [](auto& b) { return array_at<ImagePatch>(b, &ImageHeader::patches_offset); };
   const auto span = [](auto& b) { return array_at<ImageSpan>(b, &ImageHeader::spans_offset); };
+  const auto leaf = [](auto& b) { return array_at<ImageLeaf>(b, &ImageHeader::leaves_offset); };
   const auto node = [](auto& b) { return array_at<ImageNode>(b, &ImageHeader::nodes_offset); };
   const auto number = [](auto& b) { return array_at<double>(b, &ImageHeader::coefficients_offset); };
   const auto header = [](auto& b) { return reinterpret_cast<ImageHeader*>(b.data()); };
@@ -160,7 +161,16 @@ TEST(DesignImage, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([&](auto& b) { patch(b)[1].first_span = 0; }));
   EXPECT_TRUE(refused([&](auto& b) { patch(b)->rational = 0; }));
   EXPECT_TRUE(refused([&](auto& b) { span(b)->patch = 1; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->leaf = span(b)[1].leaf; }));
+  EXPECT_TRUE(refused([&](auto& b) { span(b)->ends = 0; }));
+  EXPECT_TRUE(refused([&](auto& b) { span(b)->ends |= 16U; }));
+  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->node = leaf(b)[1].node; }));
+  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->span = 1; }));
+  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->s_max = 0.75; }));
+  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->t_min = NAN; }));
+  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->bounds.middle[1] = INFINITY; }));
+  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->bounds.spread[4][2] = -1.0; }));
+  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->bounds.self_low[3] = 1e9; }));
+  EXPECT_TRUE(refused([&](auto& b) { header(b)->leaves_offset = ~std::uint64_t{7}; }));
   EXPECT_TRUE(refused([&](auto& b) { span(b)->first_coefficient = ~std::uint64_t{0}; }));
   EXPECT_TRUE(refused([&](auto& b) { span(b)->first_coefficient = header(b)->coefficient_count - 4; }));
   EXPECT_TRUE(refused([&](auto& b) { span(b)->cone_cosine = NAN; }));

@@ -42,7 +42,7 @@ void append_subtree(const std::vector<Box>& boxes, std::span<std::uint32_t> memb
   const std::size_t self = nodes.size();
   nodes.push_back(enclosing_node(boxes, members));
   if (members.size() == 1) {
-    nodes[self].span = members.front();
+    nodes[self].leaf = members.front();
     return;
   }
   sort_along(boxes, longest_axis(nodes[self]), members);

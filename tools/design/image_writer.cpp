@@ -1,13 +1,17 @@
 #include "tools/design/image_writer.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <span>
 
 #include "tools/design/bezier_extraction.hpp"
 #include "tools/design/bounding_tree.hpp"
+#include "tools/design/creases.hpp"
 #include "tools/design/design_error.hpp"
+#include "tools/design/leaf_subdivision.hpp"
 #include "tools/design/normal_cone.hpp"
 
 namespace bladefit {
@@ -20,22 +24,39 @@ struct ImageParts {
   std::vector<ImageNode> nodes;
   std::vector<double> breaks;
   std::vector<double> coefficients;
-  std::vector<Box> boxes;  ///< one a span
+  std::vector<ImageLeaf> leaves;
+  std::vector<Box> boxes;  ///< one a leaf
 };
 
-/// Box of the control points; the quotients are those that whoever checks the image will compute.
-Box control_box(std::span<const double> coefficients) {
+/// A leaf is to tell of points this near to the surface [half diagonals of the control points' box].
+constexpr double kNear = 5e-3;
+/// Boxes are wider than their control points by this share of their coordinates, so that whoever checks the image may
+/// round otherwise.
+constexpr double kBoxMargin = 1e-13;
+
+Box control_box(const BezierNet& net) {
   Box box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.min[axis] = std::numeric_limits<double>::infinity();
-    box.max[axis] = -std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < coefficients.size(); k += 4) {
-      const double coordinate = coefficients[k + axis] / coefficients[k + 3];
-      box.min[axis] = std::min(box.min[axis], coordinate);
-      box.max[axis] = std::max(box.max[axis], coordinate);
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::uint32_t k = 0; k < (net.degree_u + 1) * (net.degree_v + 1); ++k) {
+      const double coordinate = net.points[k][axis] / net.points[k][3];
+      low = std::min(low, coordinate);
+      high = std::max(high, coordinate);
     }
+    const double margin = kBoxMargin * std::max(std::abs(low), std::abs(high));
+    box.min[axis] = low - margin;
+    box.max[axis] = high + margin;
   }
   return box;
+}
+
+/// Half the diagonal of the box of all control points [mm].
+double half_diagonal(const std::vector<NurbsSurface>& surfaces) {
+  Eigen::AlignedBox3d box;
+  for (const NurbsSurface& surface : surfaces) {
+    for (const Eigen::Vector3d& point : surface.control_points) box.extend(point);
+  }
+  return 0.5 * box.diagonal().norm();
 }
 
 std::uint32_t append_breaks(const std::vector<double>& breaks, ImageParts& parts) {
@@ -44,7 +65,18 @@ std::uint32_t append_breaks(const std::vector<double>& breaks, ImageParts& parts
   return first;
 }
 
-void append_spans(const BezierPatch& bezier, int outward, ImageParts& parts) {
+void append_leaves(std::span<const double> net, const BezierPatch& bezier, double near, ImageParts& parts) {
+  for (ImageLeaf& leaf : cut_into_leaves(net, bezier.degree_u, bezier.degree_v, near)) {
+    BezierNet restricted;
+    restrict_net(net.data(), static_cast<std::uint32_t>(bezier.degree_u), static_cast<std::uint32_t>(bezier.degree_v),
+                 {leaf.s_min, leaf.s_max, leaf.t_min, leaf.t_max}, restricted);
+    leaf.span = static_cast<std::uint32_t>(parts.spans.size());
+    parts.leaves.push_back(leaf);
+    parts.boxes.push_back(control_box(restricted));
+  }
+}
+
+void append_spans(const BezierPatch& bezier, int outward, double near, ImageParts& parts) {
   const auto patch = static_cast<std::uint32_t>(parts.patches.size());
   const std::size_t count = bezier.spans_u() * bezier.spans_v();
   for (std::size_t k = 0; k < count; ++k) {
@@ -57,13 +89,14 @@ void append_spans(const BezierPatch& bezier, int outward, ImageParts& parts) {
     span.first_coefficient = parts.coefficients.size();
     std::copy(cone.axis.begin(), cone.axis.end(), span.cone_axis);
     span.cone_cosine = cone.cosine;
+    span.ends = span_ends(bezier, span.iu, span.iv);
+    append_leaves(net, bezier, near, parts);
     parts.spans.push_back(span);
-    parts.boxes.push_back(control_box(net));
     parts.coefficients.insert(parts.coefficients.end(), net.begin(), net.end());
   }
 }
 
-void append_patch(const BezierPatch& bezier, int outward, ImageParts& parts) {
+void append_patch(const BezierPatch& bezier, int outward, double near, ImageParts& parts) {
   ImagePatch patch{};
   patch.degree_u = static_cast<std::uint32_t>(bezier.degree_u);
   patch.degree_v = static_cast<std::uint32_t>(bezier.degree_v);
@@ -73,7 +106,7 @@ void append_patch(const BezierPatch& bezier, int outward, ImageParts& parts) {
   patch.first_break_u = append_breaks(bezier.breaks_u, parts);
   patch.first_break_v = append_breaks(bezier.breaks_v, parts);
   patch.rational = bezier.rational ? 1 : 0;
-  append_spans(bezier, outward, parts);
+  append_spans(bezier, outward, near, parts);
   parts.patches.push_back(patch);
 }
 
@@ -85,12 +118,14 @@ ImageHeader make_header(const ImageParts& parts, DesignUnit unit, int outward) {
   header.outward = outward;
   header.patch_count = static_cast<std::uint32_t>(parts.patches.size());
   header.span_count = static_cast<std::uint32_t>(parts.spans.size());
+  header.leaf_count = static_cast<std::uint32_t>(parts.leaves.size());
   header.node_count = static_cast<std::uint32_t>(parts.nodes.size());
   header.break_count = static_cast<std::uint32_t>(parts.breaks.size());
   header.coefficient_count = parts.coefficients.size();
   header.patches_offset = sizeof(ImageHeader);
   header.spans_offset = header.patches_offset + parts.patches.size() * sizeof(ImagePatch);
-  header.nodes_offset = header.spans_offset + parts.spans.size() * sizeof(ImageSpan);
+  header.leaves_offset = header.spans_offset + parts.spans.size() * sizeof(ImageSpan);
+  header.nodes_offset = header.leaves_offset + parts.leaves.size() * sizeof(ImageLeaf);
   header.breaks_offset = header.nodes_offset + parts.nodes.size() * sizeof(ImageNode);
   header.coefficients_offset = header.breaks_offset + parts.breaks.size() * sizeof(double);
   header.total_size = header.coefficients_offset + parts.coefficients.size() * sizeof(double);
@@ -113,19 +148,21 @@ void seal(std::vector<std::byte>& image) {
 
 std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward) {
   ImageParts parts;
-  for (const NurbsSurface& surface : surfaces) append_patch(extract_bezier(surface), outward, parts);
-  if (parts.spans.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
+  const double near = kNear * half_diagonal(surfaces);
+  for (const NurbsSurface& surface : surfaces) append_patch(extract_bezier(surface), outward, near, parts);
+  if (parts.leaves.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
     throw DesignError("the design has too many knot spans; export the blade with fewer knots");
   }
   parts.nodes = build_bounding_tree(parts.boxes);
   for (std::uint32_t k = 0; k < parts.nodes.size(); ++k) {
-    if (parts.nodes[k].right == 0) parts.spans[parts.nodes[k].span].leaf = k;
+    if (parts.nodes[k].right == 0) parts.leaves[parts.nodes[k].leaf].node = k;
   }
   const ImageHeader header = make_header(parts, unit, outward);
   std::vector<std::byte> image(header.total_size);
   std::memcpy(image.data(), &header, sizeof header);
   copy_array(parts.patches, header.patches_offset, image);
   copy_array(parts.spans, header.spans_offset, image);
+  copy_array(parts.leaves, header.leaves_offset, image);
   copy_array(parts.nodes, header.nodes_offset, image);
   copy_array(parts.breaks, header.breaks_offset, image);
   copy_array(parts.coefficients, header.coefficients_offset, image);

@@ -1,0 +1,15 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "tools/design/leaf_bounding.hpp"
+
+namespace bladefit {
+
+/// Cuts a Bezier span into leaves, by halves, until the bounds of each tell that the distance from every point near to
+/// it is convex over it, at most 2^kLeafCuts of them. `near` [mm] is how far off the surface that is wanted.
+/// Of each leaf `span` and `node` are left open.
+inline constexpr int kLeafCuts = 5;
+std::vector<ImageLeaf> cut_into_leaves(std::span<const double> coefficients, int degree_u, int degree_v, double near);
+
+}  // namespace bladefit
