@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "core/geometry/global_projection.hpp"
 
 namespace bladefit {
@@ -16,7 +18,7 @@ class NearestSoFar {
   [[nodiscard]] const Projection& nearest() const { return nearest_; }
   [[nodiscard]] double distance() const { return distance_; }
   /// What is not nearer than this does not matter [mm].
-  [[nodiscard]] double limit() const { return found_ ? distance_ + margin_ - slack_ : INFINITY; }
+  [[nodiscard]] double limit() const { return found_ ? distance_ + margin_ - slack_ : kNowhere; }
   [[nodiscard]] double slack() const { return slack_; }
   [[nodiscard]] bool directed() const { return directed_; }
 
@@ -24,11 +26,12 @@ class NearestSoFar {
   [[nodiscard]] GlobalProjection result(bool exhausted, std::uint32_t pieces) const;
 
  private:
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
   const Surface& surface_;
   const Vec3& approach_;
   double margin_, slack_;
   bool directed_, found_ = false, has_resort_ = false;
-  double distance_ = 0.0, rival_ = INFINITY;
+  double distance_ = 0.0, rival_ = kNowhere;
   Projection nearest_;
   Projection resort_;  ///< the nearest place that is not a proper minimum
 };
