@@ -10,6 +10,7 @@
 #include "drivers/make_source.hpp"
 #include "drivers/source_uri.hpp"
 #include "tools/design/output_file.hpp"
+#include "tools/design_notes.hpp"
 #include "tools/fit_result.hpp"
 #include "tools/panel_display.hpp"
 #include "tools/run_files.hpp"
@@ -125,7 +126,7 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
   std::FILE* const words = plan.json == "-" ? stderr : stdout;
-  for (const std::string& note : plan.design.notes) fmt::print(words, "{}\n", note);
+  tell_notes(plan.design, words);
   if (!plan.fit.note.empty()) fmt::print(words, "{}\n", plan.fit.note);
 
   Notices notices(plan.headless);
