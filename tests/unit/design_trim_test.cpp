@@ -16,6 +16,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Wire.hxx>
 
+#include "tests/hil/process.hpp"
 #include "tests/unit/design_fixtures.hpp"
 #include "tools/design/cad_session.hpp"
 #include "tools/design/design_file.hpp"
@@ -92,6 +93,21 @@ TEST(DesignTrim, IgesFacesCutInsideTheirSurfaceAreTold) {
     EXPECT_EQ(warning_of(write_iges(folder, whole(), mode)), "");
     expect_warning(write_iges(folder, cut_along_one_side(), mode), face);
     expect_warning(write_iges(folder, with_a_hole(), mode), face);
+  }
+}
+
+TEST(DesignTrim, EveryCommandWarnsOnStandardError) {
+  const testing::TemporaryFolder folder;
+  const std::string design = write_step(folder, with_a_hole());
+  const std::vector<std::vector<std::string>> commands = {
+      {"compile", design, "--outward", "+", "-o", folder.path() / "sheet.bfd"},
+      {"localize", "--design", design, "--outward", "+", "--points", hil::data_file("dtmb4119/subsets/050.csv")},
+      {"run", "--design", design, "--outward", "+", "--source", "modbus-tcp://127.0.0.1:1", "--session",
+       folder.path() / "session", "--panel", "127.0.0.1:0", "--headless"}};
+  for (const std::vector<std::string>& command : commands) {
+    hil::Process process(hil::operator+({BLADEFIT_COMMAND}, command));
+    EXPECT_TRUE(process.exit_code()) << command[0];
+    EXPECT_EQ(process.err().find("bladefit: warning: " + design + ": trimmed faces"), 0U) << process.err();
   }
 }
 
