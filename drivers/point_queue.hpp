@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <chrono>
 #include <deque>
 #include <span>
 
@@ -23,6 +24,18 @@ class PointQueue {
     std::copy(points_.begin(), end, points.begin());
     points_.erase(points_.begin(), end);
     return count;
+  }
+
+  /// Calls `step`, which waits until the time it is given and may push points, at least once and until points are
+  /// there or `timeout` is over; then takes them. Points that are there already are not made to wait.
+  template <typename Step>
+  [[nodiscard]] std::size_t wait_and_take(std::span<ProbePoint> points, std::chrono::milliseconds timeout, Step step) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point until = empty() ? Clock::now() + timeout : Clock::now();
+    do {
+      step(until);
+    } while (empty() && Clock::now() < until);
+    return take(points);
   }
 
  private:

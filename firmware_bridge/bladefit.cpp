@@ -138,6 +138,12 @@ bladefit_status bladefit_refine(bladefit_handle* handle, uint32_t max_points) {
   return status != BLADEFIT_OK ? status : to_abi(handle->localizer->refine(max_points));
 }
 
+bladefit_status bladefit_conclude(bladefit_handle* handle) {
+  const bladefit_status status = check_handle(handle);
+  if (status == BLADEFIT_OK) handle->localizer->conclude();
+  return status;
+}
+
 bladefit_status bladefit_fit(const bladefit_handle* handle, bladefit_fit_report* report) {
   if (const bladefit_status status = check_call(handle, report); status != BLADEFIT_OK) return status;
   *report = bladefit::translate_report(handle->localizer->fit());

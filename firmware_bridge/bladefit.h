@@ -202,6 +202,12 @@ bladefit_status bladefit_next_revision(bladefit_handle* handle, bladefit_verdict
  * ITERATION_CAP; NULL_ARGUMENT, MISALIGNED or BAD_HANDLE. */
 bladefit_status bladefit_refine(bladefit_handle* handle, uint32_t max_points);
 
+/* The handle's thread. Says that no more points come: from here on bladefit_refine() uses every direction that the
+ * points determine at all, however weakly. Call it once the program is finished, then bladefit_refine() until it no
+ * longer returns MORE_WORK. The next bladefit_push() takes it back. Cost: constant. Returns OK, NULL_ARGUMENT,
+ * MISALIGNED or BAD_HANDLE. */
+bladefit_status bladefit_conclude(bladefit_handle* handle);
+
 /* The handle's thread. Returns OK, NULL_ARGUMENT, MISALIGNED, BAD_SIZE or BAD_HANDLE. */
 bladefit_status bladefit_fit(const bladefit_handle* handle, bladefit_fit_report* report);
 

@@ -11,6 +11,7 @@
 #include "tools/design/c_array.hpp"
 #include "tools/design/design_file.hpp"
 #include "tools/design/output_file.hpp"
+#include "tools/design_notes.hpp"
 
 namespace bladefit {
 namespace {
@@ -105,7 +106,7 @@ void print_summary(const CompileOptions& options, const LoadedDesign& design, co
   }
   print_patches(image);
   print_box(image.header());
-  for (const std::string& note : design.notes) fmt::print("  {}\n", note);
+  tell_notes(design, stdout, "  ");
 }
 
 void compile(const CompileOptions& options) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 namespace bladefit {
 namespace {
@@ -120,23 +121,15 @@ void add_fit_options(CLI::App& command, FitSettings& flags) {
 }
 
 FitSettings merged(const FitSettings& flags, const FitSettings& file) {
-  FitSettings out = file;
-  const auto over = [](auto& target, const auto& source) {
-    if (source) target = source;
+  using S = FitSettings;
+  constexpr std::tuple members(&S::mode, &S::leading_edge, &S::tolerance, &S::rest_tolerance, &S::ratio, &S::transition,
+                               &S::window, &S::outward, &S::probe_radius, &S::units, &S::regions, &S::edges,
+                               &S::ignore_approach);
+  FitSettings out = flags;
+  const auto fill = [&](auto member) {
+    if (!(out.*member)) out.*member = file.*member;
   };
-  over(out.mode, flags.mode);
-  over(out.leading_edge, flags.leading_edge);
-  over(out.tolerance, flags.tolerance);
-  over(out.rest_tolerance, flags.rest_tolerance);
-  over(out.ratio, flags.ratio);
-  over(out.transition, flags.transition);
-  over(out.window, flags.window);
-  over(out.outward, flags.outward);
-  over(out.probe_radius, flags.probe_radius);
-  over(out.units, flags.units);
-  over(out.regions, flags.regions);
-  over(out.edges, flags.edges);
-  over(out.ignore_approach, flags.ignore_approach);
+  std::apply([&](auto... member) { (fill(member), ...); }, members);
   return out;
 }
 

@@ -10,6 +10,7 @@
 
 #include "drivers/replay/points_csv.hpp"
 #include "tools/design/output_file.hpp"
+#include "tools/design_notes.hpp"
 #include "tools/fit_options.hpp"
 #include "tools/fit_result.hpp"
 
@@ -80,7 +81,7 @@ int localize(const LocalizeFlags& flags) {
 
   const bool json_on_stdout = flags.json == "-";
   std::FILE* words = json_on_stdout ? stderr : stdout;
-  for (const std::string& note : loaded.notes) fmt::print(words, "{}\n", note);
+  tell_notes(loaded, words);
   if (!plan.note.empty()) fmt::print(words, "{}\n", plan.note);
   const FitResult result = fit_points(design, plan, points, flags.points);
   const std::string json = result_json(result, plan);

@@ -10,6 +10,7 @@
 #include "drivers/make_source.hpp"
 #include "drivers/source_uri.hpp"
 #include "tools/design/output_file.hpp"
+#include "tools/design_notes.hpp"
 #include "tools/fit_result.hpp"
 #include "tools/panel_display.hpp"
 #include "tools/run_files.hpp"
@@ -73,8 +74,8 @@ void watch(Host& host, const RunPlan& plan) {
   }
 }
 
-const char* ending(SessionEnd end) {
-  switch (end) {
+std::string ending(const SessionResult& session) {
+  switch (session.end) {
     case SessionEnd::finished:
       return "the machine's program is finished";
     case SessionEnd::idle:
@@ -85,7 +86,7 @@ const char* ending(SessionEnd end) {
     case SessionEnd::failed:
       break;
   }
-  return "failed";
+  return fmt::format("by a fault; what follows is of the {} points stored before it", session.points.size());
 }
 
 void write_copy(const std::string& path, const std::string& json) {
@@ -100,7 +101,12 @@ void write_copy(const std::string& path, const std::string& json) {
   }
 }
 
+/// Writes what the session came to, also after a fault: then of the points stored before it.
 int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words) {
+  if (session.error) static_cast<void>(fail(session.error));
+  // A session that was refused is not this run's to report on.
+  const bool refused = session.error.fault == Fault::bad_input;
+  if (session.error && (refused || session.points.empty())) return exit_code_of(session.error);
   if (session.points.empty()) {
     throw DesignError(
         fmt::format("the session in {} has no point that can be used: nothing can be said of the blade; "
@@ -111,16 +117,16 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
   const std::string json = result_json(result, plan.fit);
   const std::vector<std::string> files = write_session_files(plan.host.session_directory, session, json);
   write_copy(plan.json, json);
-  fmt::print(words, "Session ended: {}\n{}", ending(session.end), operator_summary(result, plan.fit, plan.image));
+  fmt::print(words, "Session ended: {}\n{}", ending(session), operator_summary(result, plan.fit, plan.image));
   for (const std::string& file : files) fmt::print(words, "Written: {}\n", file);
   if (!plan.json.empty() && plan.json != "-") fmt::print(words, "Written: {}\n", plan.json);
-  return exit_code_of(result);
+  return session.error ? exit_code_of(session.error) : exit_code_of(result);
 }
 
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
   std::FILE* const words = plan.json == "-" ? stderr : stdout;
-  for (const std::string& note : plan.design.notes) fmt::print(words, "{}\n", note);
+  tell_notes(plan.design, words);
   if (!plan.fit.note.empty()) fmt::print(words, "{}\n", plan.fit.note);
 
   Notices notices(plan.headless);
@@ -133,7 +139,6 @@ int run(const RunFlags& flags) {
   watch(host, plan);
   const SessionResult session = host.finish();
   notices.flush();
-  if (session.error) return fail(session.error);
   return conclude(plan, session, words);
 }
 

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cctype>
-#include <thread>
 
 #include "drivers/dro/dro_line.hpp"
 #include "drivers/host_clock.hpp"
@@ -30,7 +28,7 @@ std::string printable(std::string_view line) {
 DroSource::DroSource(const SourceSettings& settings)
     : settings_(settings),
       name_(source_name(settings)),
-      back_off_(settings.dro.reconnect_first, settings.dro.reconnect_longest) {}
+      port_(settings.line, settings.dro.reconnect_first, settings.dro.reconnect_longest) {}
 
 SourceError DroSource::open(std::uint32_t after) {
   status_ = {};
@@ -39,25 +37,20 @@ SourceError DroSource::open(std::uint32_t after) {
   too_long_ = false;
   first_line_ = true;
   next_ = after + 1;
-  if (const std::string fault = port_.open(settings_.line); !fault.empty())
-    return {fmt::format("{}: {}", name_, fault)};
+  if (const std::string fault = port_.open(); !fault.empty()) return {fmt::format("{}: {}", name_, fault)};
   status_.link = LinkState::up;
-  status_.last_fault = port_.remark();
+  status_.last_fault = port_->remark();
   return {};
 }
 
 std::size_t DroSource::poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) {
-  const Clock::time_point until = points_.empty() ? Clock::now() + timeout : Clock::now();
-  do {
-    step(until);
-  } while (points_.empty() && Clock::now() < until);
-  return points_.take(points);
+  return points_.wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
 }
 
 void DroSource::step(Clock::time_point until) {
-  if (!port_.is_open()) return reconnect(until);
+  if (!port_->is_open()) return reconnect(until);
   std::array<char, 4096> bytes{};
-  const std::optional<std::size_t> count = port_.read(bytes, until);
+  const std::optional<std::size_t> count = port_->read(bytes, until);
   if (!count) return link_lost("the port has hung up; check the cable, and probe again what was probed meanwhile");
   for (std::size_t index = 0; index < *count; ++index) take(bytes[index]);
 }
@@ -95,21 +88,12 @@ void DroSource::take_line() {
 }
 
 void DroSource::link_lost(const std::string& fault) {
-  port_.close();
-  status_.link = LinkState::lost;
   status_.gap = true;
-  note_fault(status_, fault);
-  back_off_.failed(Clock::now());
+  port_.lost(fault, status_);
 }
 
 void DroSource::reconnect(Clock::time_point until) {
-  if (Clock::now() < back_off_.retry_at()) {
-    std::this_thread::sleep_until(std::min(until, back_off_.retry_at()));
-    return;
-  }
-  if (const std::string fault = port_.open(settings_.line); !fault.empty()) return link_lost(fault);
-  ++status_.reconnects;
-  back_off_.succeeded();
+  if (!port_.reopen(until, status_)) return;
   status_.link = LinkState::up;
   line_.clear();
   first_line_ = true;

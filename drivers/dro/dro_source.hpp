@@ -1,10 +1,9 @@
 #pragma once
 #include <string>
 
-#include "drivers/back_off.hpp"
 #include "drivers/point_queue.hpp"
 #include "drivers/probe_source.hpp"
-#include "drivers/serial/serial_port.hpp"
+#include "drivers/serial/lasting_port.hpp"
 
 namespace bladefit {
 
@@ -17,7 +16,7 @@ class DroSource final : public ProbeSource {
   [[nodiscard]] SourceError open(std::uint32_t after) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t) override {}
-  void close() override { port_.close(); }
+  void close() override { port_->close(); }
   [[nodiscard]] const SourceStatus& status() const override { return status_; }
 
  private:
@@ -32,9 +31,8 @@ class DroSource final : public ProbeSource {
   const SourceSettings settings_;
   const std::string name_;
   SourceStatus status_;
-  SerialPort port_;
+  LastingPort port_;
   PointQueue points_;
-  BackOff back_off_;
   std::string line_;
   bool too_long_ = false;
   bool first_line_ = true;  ///< since the port was opened: its beginning may be missing

@@ -71,11 +71,7 @@ SourceError ModbusSource::open(std::uint32_t after) {
 }
 
 std::size_t ModbusSource::poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) {
-  const Clock::time_point until = ring_.points().empty() ? Clock::now() + timeout : Clock::now();
-  do {
-    step(until);
-  } while (ring_.points().empty() && Clock::now() < until);
-  return ring_.points().take(points);
+  return ring_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
 }
 
 void ModbusSource::acknowledge(std::uint32_t sequence) { stored_ = std::max(stored_, sequence); }

@@ -24,30 +24,26 @@ SerialSource::SerialSource(const SourceSettings& settings)
     : settings_(settings),
       name_(source_name(settings)),
       session_(settings_.serial, status_),
-      back_off_(settings.serial.reconnect_first, settings.serial.reconnect_longest) {}
+      port_(settings.line, settings.serial.reconnect_first, settings.serial.reconnect_longest) {}
 
 SourceError SerialSource::open(std::uint32_t after) {
   status_ = {};
   session_.restart(after);
-  if (const std::string fault = port_.open(settings_.line); !fault.empty())
-    return {fmt::format("{}: {}", name_, fault)};
+  if (const std::string fault = port_.open(); !fault.empty()) return {fmt::format("{}: {}", name_, fault)};
   link_made();
   const Clock::time_point deadline = Clock::now() + settings_.serial.open_timeout;
   while (!session_.running() && Clock::now() < deadline) step(deadline);
   if (session_.running()) return {};
-  const std::string fault = port_.is_open()
+  const std::string fault = port_->is_open()
                                 ? "the device does not answer $START; switch it on, or correct baud and parity"
                                 : status_.last_fault;
-  port_.close();
+  port_->close();
   return {fmt::format("{}: {}", name_, fault)};
 }
 
 std::size_t SerialSource::poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) {
-  const Clock::time_point until = session_.points().empty() ? Clock::now() + timeout : Clock::now();
-  do {
-    step(until);
-  } while (session_.points().empty() && Clock::now() < until);
-  const std::size_t count = session_.points().take(points);
+  const std::size_t count =
+      session_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
   status_.finished = session_.finished();
   return count;
 }
@@ -58,12 +54,12 @@ void SerialSource::step(Clock::time_point until) {
     std::this_thread::sleep_until(until);
     return;
   }
-  if (!port_.is_open()) return reconnect(until);
+  if (!port_->is_open()) return reconnect(until);
   session_.tick(Clock::now());
   send();
-  if (!port_.is_open()) return;
+  if (!port_->is_open()) return;
   std::array<char, 4096> bytes{};
-  const std::optional<std::size_t> count = port_.read(bytes, std::min(until, session_.next_tick()));
+  const std::optional<std::size_t> count = port_->read(bytes, std::min(until, session_.next_tick()));
   if (!count) return link_lost(kHangUp);
   framer_.add({bytes.data(), *count});
   take_lines();
@@ -89,8 +85,8 @@ void SerialSource::send() {
     note_fault(status_, "nothing of what is sent comes back; set echo = false");
   }
   unsent_ += output;
-  if (unsent_.empty() || !port_.is_open()) return;
-  const std::optional<std::size_t> count = port_.write(unsent_);
+  if (unsent_.empty() || !port_->is_open()) return;
+  const std::optional<std::size_t> count = port_->write(unsent_);
   if (!count) return link_lost(kHangUp);
   unsent_.erase(0, *count);
   if (unsent_.size() <= kMostUnsent) return;
@@ -103,40 +99,30 @@ void SerialSource::link_made() {
   framer_.reset();
   echo_.reset();
   unsent_.clear();
-  if (!port_.remark().empty()) status_.last_fault = port_.remark();
+  if (!port_->remark().empty()) status_.last_fault = port_->remark();
   session_.link_made(Clock::now());
 }
 
 void SerialSource::link_lost(const std::string& fault) {
-  port_.close();
   session_.link_lost();
-  status_.link = LinkState::lost;
-  note_fault(status_, fault);
-  back_off_.failed(Clock::now());
+  port_.lost(fault, status_);
 }
 
 void SerialSource::reconnect(Clock::time_point until) {
-  if (Clock::now() < back_off_.retry_at()) {
-    std::this_thread::sleep_until(std::min(until, back_off_.retry_at()));
-    return;
-  }
-  if (const std::string fault = port_.open(settings_.line); !fault.empty()) return link_lost(fault);
-  ++status_.reconnects;
-  back_off_.succeeded();
-  link_made();
+  if (port_.reopen(until, status_)) link_made();
 }
 
 void SerialSource::close() {
-  if (!port_.is_open()) return;
+  if (!port_->is_open()) return;
   send();
   unsent_ += encode_line(serial_protocol_v1::kStopTag);
   const Clock::time_point until = Clock::now() + kCloseTime;
-  while (port_.is_open() && !unsent_.empty() && Clock::now() < until) {
+  while (port_->is_open() && !unsent_.empty() && Clock::now() < until) {
     send();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  port_.drain(until);
-  port_.close();
+  port_->drain(until);
+  port_->close();
   session_.link_lost();
 }
 

@@ -1,11 +1,10 @@
 #pragma once
 #include <string>
 
-#include "drivers/back_off.hpp"
 #include "drivers/probe_source.hpp"
 #include "drivers/serial/echo_filter.hpp"
+#include "drivers/serial/lasting_port.hpp"
 #include "drivers/serial/line_framer.hpp"
-#include "drivers/serial/serial_port.hpp"
 #include "drivers/serial/serial_session.hpp"
 
 namespace bladefit {
@@ -36,10 +35,9 @@ class SerialSource final : public ProbeSource {
   const std::string name_;
   SourceStatus status_;
   SerialSession session_;
-  SerialPort port_;
+  LastingPort port_;
   LineFramer framer_;
   EchoFilter echo_;
-  BackOff back_off_;
   std::string unsent_;
 };
 

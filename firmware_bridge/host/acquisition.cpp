@@ -137,12 +137,22 @@ bool Acquisition::run_id_has_changed() {
   return true;
 }
 
+/// No point came for the whole idle time, and none could have come: that is no end of a program.
+bool Acquisition::link_is_gone() {
+  if (source_.status().link != LinkState::lost) return false;
+  shared_.fail({Fault::device, fmt::format("the link is lost and did not come back: {}; mend it, then run the session "
+                                           "again with the same --session to go on",
+                                           source_.status().last_fault)});
+  return true;
+}
+
 SessionEnd Acquisition::end_reached() {
   if (run_id_has_changed() || shared_.failed.load()) return SessionEnd::failed;
   if (shared_.stop_requested.load()) return SessionEnd::stopped;
   if (settings_.end_when_finished && finish_taken_) return SessionEnd::finished;
   const bool idle = settings_.idle.count() > 0 && Clock::now() - last_point_ > settings_.idle;
-  return idle && !shared_.paused.load() ? SessionEnd::idle : SessionEnd::running;
+  if (!idle || shared_.paused.load()) return SessionEnd::running;
+  return link_is_gone() ? SessionEnd::failed : SessionEnd::idle;
 }
 
 void Acquisition::acknowledge_stored() {

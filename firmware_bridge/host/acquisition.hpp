@@ -36,6 +36,7 @@ class Acquisition {
   void follow_source();
   void announce_changes(const SourceStatus& status);
   [[nodiscard]] bool run_id_has_changed();
+  [[nodiscard]] bool link_is_gone();
   [[nodiscard]] SessionEnd end_reached();
   void take(const StreamEvent& event);
   void give_to_fit(const FitInput& input);

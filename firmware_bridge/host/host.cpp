@@ -10,10 +10,12 @@
 
 #include "firmware_bridge/host/acquisition.hpp"
 #include "firmware_bridge/host/config_digest.hpp"
+#include "firmware_bridge/host/fit_stream.hpp"
 #include "firmware_bridge/host/fit_worker.hpp"
 #include "firmware_bridge/host/journal.hpp"
 #include "firmware_bridge/host/journal_writer.hpp"
 #include "firmware_bridge/host/publication.hpp"
+#include "firmware_bridge/host/session_folder.hpp"
 
 namespace bladefit {
 namespace {
@@ -62,8 +64,21 @@ std::string journal_path(const std::string& session_directory) {
   return (std::filesystem::path(session_directory) / "journal.bin").string();
 }
 
+/// The fit of exactly the events on disk: where the disk failed, points were fitted that the result does not hold.
+void fit_again(FitStream stream, const std::vector<StreamEvent>& events) {
+  stream.reset();
+  Verdict verdict;
+  for (const StreamEvent& event : events) {
+    if (event.kind == EventKind::reset) stream.reset();
+    if (event.kind == EventKind::finished) stream.settle();
+    if (event.kind == EventKind::point && stream.push(event.point, verdict)) stream.end_path();
+  }
+  stream.settle();
+}
+
 /// What exists while the threads run. The members that threads use come before the threads.
 struct Host::Running {
+  SessionFolder folder;  ///< outlives the journal in it
   Journal journal;
   PanelServer server;
   std::unique_ptr<LocalizerMemory> memory;
@@ -80,12 +95,7 @@ struct Host::Running {
 
 HostError Host::Running::open_journal(const HostSettings& settings, const SessionIdentity& identity,
                                       JournalContent& recorded) {
-  std::error_code problem;
-  std::filesystem::create_directories(settings.session_directory, problem);
-  if (problem) {
-    return {Fault::device, fmt::format("{}: the session folder cannot be made ({}); name another one with --session",
-                                       settings.session_directory, problem.message())};
-  }
+  if (const HostError error = folder.make(settings.session_directory)) return error;
   const std::string path = journal_path(settings.session_directory);
   if (const HostError error = journal.open(path)) return error;
   if (const HostError error = read_journal(path, recorded)) return error;
@@ -158,16 +168,16 @@ SessionResult Host::finish() {
   shared_.panel_closed.store(true);
   shared_.publication_wakeup.signal();
   for (std::thread& thread : running_->threads) thread.join();
-  SessionResult result{.end = shared_.end.load(),
-                       .error = shared_.error(),
-                       .report = running_->localizer->fit(),
-                       .points = {},
-                       .verdicts = {},
-                       .refused = 0};
+  SessionResult result{
+      .end = shared_.end.load(), .error = shared_.error(), .report = {}, .points = {}, .verdicts = {}, .refused = 0};
   JournalContent recorded;
   const HostError unreadable = read_journal(journal_path(settings_.session_directory), recorded);
   if (unreadable && !result.error) result.error = unreadable;
-  if (result.error) result.end = SessionEnd::failed;
+  if (result.error) {
+    result.end = SessionEnd::failed;
+    fit_again({*running_->localizer, settings_.path_refine_points}, recorded.events);
+  }
+  result.report = running_->localizer->fit();
   for (const StreamEvent& event : recorded.events) {
     if (event.kind == EventKind::reset) {
       result.points.clear();

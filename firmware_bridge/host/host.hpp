@@ -13,18 +13,20 @@ namespace bladefit {
 
 struct HostSettings {
   LocalizerConfig localizer;
-  std::string session_directory;  ///< made when it is missing; a session in it is resumed
+  /// Made when it is missing, and removed again when nothing was put into it. A session in it is resumed.
+  std::string session_directory;
   PanelServerSettings panel;
   /// Stored points projected anew when a path ends: bounds how long that makes the next point wait.
   std::uint32_t path_refine_points = 2048;
-  bool end_when_finished = false;     ///< end when the device says that its program is finished
-  std::chrono::milliseconds idle{0};  ///< end when no new point came for so long; 0 = never
+  bool end_when_finished = false;  ///< end when the device says that its program is finished
+  /// End when no new point came for so long; a fault where the link is lost by then; 0 = never.
+  std::chrono::milliseconds idle{0};
 };
 
 /// What a session came to.
 struct SessionResult {
   SessionEnd end = SessionEnd::running;
-  HostError error;  ///< set where `end` is failed; the rest then tells of the points before the failure
+  HostError error;  ///< set where `end` is failed; the rest then tells of the points on disk
   FitReport report;
   std::vector<ProbePoint> points;  ///< as journalled, rising sequence
   std::vector<Verdict> verdicts;   ///< final ones; verdicts[i] is that of points[i]

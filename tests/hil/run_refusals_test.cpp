@@ -17,6 +17,7 @@ void expect_device_failure(const std::string& source, const std::vector<std::str
   EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
   for (const std::string& word : words) EXPECT_NE(line.find(word), std::string::npos) << line;
   EXPECT_FALSE(std::filesystem::exists(scratch / "result.json"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "session")) << "an empty session is left behind";
 }
 
 TEST(RunRefusals, NobodyListensAtThePort) { expect_device_failure("modbus-tcp://127.0.0.1:1", {"127.0.0.1:1"}); }
@@ -24,6 +25,18 @@ TEST(RunRefusals, NobodyListensAtThePort) { expect_device_failure("modbus-tcp://
 TEST(RunRefusals, TheDeviceDoesNotExist) {
   expect_device_failure("modbus-rtu:/nowhere/cmm", {"/nowhere/cmm"});
   expect_device_failure("serial:/nowhere/cmm", {"/nowhere/cmm"});
+}
+
+TEST(RunRefusals, AFolderThatWasThereStays) {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "mine");
+  const std::string source = "modbus-tcp://127.0.0.1:1";
+  Process there(run_options(source, scratch / "mine", scratch / "result.json", kUntilIdle));
+  EXPECT_EQ(there.exit_code(30s), 3);
+  EXPECT_TRUE(std::filesystem::is_empty(scratch / "mine"));
+  Process deep(run_options(source, scratch / "mine/deep/session/", scratch / "result.json", kUntilIdle));
+  EXPECT_EQ(deep.exit_code(30s), 3);
+  EXPECT_TRUE(std::filesystem::is_empty(scratch / "mine"));
 }
 
 TEST(RunRefusals, AnotherMapVersion) {

@@ -47,6 +47,8 @@ bladefit_status c_session(void* memory, size_t memory_size, const void* design, 
   if (status != BLADEFIT_OK) return status;
   status = push_all(handle, points, count, verdicts, revisions);
   if (status != BLADEFIT_OK) return status;
+  status = bladefit_conclude(handle);
+  if (status != BLADEFIT_OK) return status;
   do {
     status = bladefit_refine(handle, 1000);
   } while (status == BLADEFIT_MORE_WORK);

@@ -236,6 +236,7 @@ TEST_F(BridgeCAbi, MisalignedPointersAreRefused) {
   EXPECT_EQ(bladefit_next_revision(handle_, odd_verdict), BLADEFIT_MISALIGNED);
   auto* const odd_handle = reinterpret_cast<bladefit_handle*>(memory_.get() + 8);
   EXPECT_EQ(bladefit_reset(odd_handle), BLADEFIT_MISALIGNED);
+  EXPECT_EQ(bladefit_conclude(odd_handle), BLADEFIT_MISALIGNED);
   EXPECT_EQ(bladefit_fit(handle_, reinterpret_cast<bladefit_fit_report*>(room.data() + 2)), BLADEFIT_MISALIGNED);
 }
 
@@ -250,10 +251,12 @@ TEST_F(BridgeCAbi, AHandleThatIsNoneIsRefused) {
   EXPECT_EQ(bladefit_push(none, &point, &verdict), BLADEFIT_BAD_HANDLE);
   EXPECT_EQ(bladefit_next_revision(none, &verdict), BLADEFIT_BAD_HANDLE);
   EXPECT_EQ(bladefit_refine(none, 1), BLADEFIT_BAD_HANDLE);
+  EXPECT_EQ(bladefit_conclude(none), BLADEFIT_BAD_HANDLE);
   EXPECT_EQ(bladefit_fit(none, &report), BLADEFIT_BAD_HANDLE);
   EXPECT_EQ(bladefit_verdict_of(none, 1, &verdict), BLADEFIT_BAD_HANDLE);
   EXPECT_EQ(bladefit_reset(none), BLADEFIT_BAD_HANDLE);
   EXPECT_EQ(bladefit_refine(nullptr, 1), BLADEFIT_NULL_ARGUMENT);
+  EXPECT_EQ(bladefit_conclude(nullptr), BLADEFIT_NULL_ARGUMENT);
   EXPECT_EQ(bladefit_reset(nullptr), BLADEFIT_NULL_ARGUMENT);
 }
 
@@ -266,6 +269,29 @@ TEST_F(BridgeCAbi, FindsVerdictsAndResets) {
   EXPECT_EQ(bladefit_reset(handle_), BLADEFIT_OK);
   EXPECT_EQ(report().points, 0U);
   EXPECT_EQ(bladefit_next_revision(handle_, &verdict), BLADEFIT_NOT_FOUND);
+}
+
+/// With few points verdicts wait for more; conclude() says that none come, and the next push takes it back.
+TEST_F(BridgeCAbi, ConcludesUntilTheNextPush) {
+  ASSERT_EQ(bladefit_reset(handle_), BLADEFIT_OK);
+  bladefit_verdict verdict = empty_verdict();
+  for (std::uint32_t sequence = 1; sequence <= 10; ++sequence) {
+    const bladefit_point point = point_at(20 * sequence - 19);
+    ASSERT_GE(bladefit_push(handle_, &point, &verdict), 0);
+  }
+  const auto refine_and_ask = [&] {
+    while (bladefit_refine(handle_, 100) == BLADEFIT_MORE_WORK) {
+    }
+    EXPECT_EQ(bladefit_verdict_of(handle_, 1, &verdict), BLADEFIT_OK);
+    return verdict.state;
+  };
+  EXPECT_EQ(refine_and_ask(), static_cast<std::uint32_t>(BLADEFIT_PENDING));
+  ASSERT_EQ(bladefit_conclude(handle_), BLADEFIT_OK);
+  EXPECT_NE(refine_and_ask(), static_cast<std::uint32_t>(BLADEFIT_PENDING));
+  EXPECT_EQ(report().determined, 6U);
+  const bladefit_point next = point_at(200);
+  ASSERT_GE(bladefit_push(handle_, &next, &verdict), 0);
+  EXPECT_EQ(verdict.state, static_cast<std::uint32_t>(BLADEFIT_PENDING));
 }
 
 }  // namespace

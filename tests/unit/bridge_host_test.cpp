@@ -175,6 +175,9 @@ TEST(BridgeHost, AFullDiskIsAFaultAndNothingUnstoredIsAcknowledged) {
   EXPECT_NE(result.error.message.find("journal.bin"), std::string::npos);
   EXPECT_LE(source.acknowledged, 100U);
   EXPECT_GE(result.points.size(), source.acknowledged);
+  ASSERT_GT(result.points.size(), 0U);
+  ScriptedSource stored(measured_points(result.points.size()));
+  expect_same_result(result, run_to_end(settings_for(folder / "stored"), stored));
   ScriptedSource rest(measured_points(kPoints));
   expect_same_result(run_to_end(settings, rest), clean_session());
 }

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <vector>
 
 #include "drivers/crc16.hpp"
 #include "drivers/modbus/ring_reader.hpp"
+#include "tests/unit/driver_collecting.hpp"
 
 namespace bladefit {
 namespace {
@@ -34,16 +34,8 @@ struct Bench {
     return ring.accept(batch, words, 1);
   }
 
-  std::vector<std::uint32_t> take() {
-    std::array<ProbePoint, 64> points;
-    const std::size_t count = ring.points().take(points);
-    std::vector<std::uint32_t> sequences;
-    for (std::size_t index = 0; index < count; ++index) sequences.push_back(points[index].sequence);
-    return sequences;
-  }
+  Sequences take() { return take_sequences(ring.points()); }
 };
-
-using Sequences = std::vector<std::uint32_t>;
 
 TEST(RingReader, ReadsNothingBeforeAHeader) { EXPECT_EQ(Bench().ring.next_batch().count, 0); }
 

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <pty.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,6 +13,8 @@
 
 #include "drivers/make_source.hpp"
 #include "drivers/serial/serial_message.hpp"
+#include "tests/unit/driver_collecting.hpp"
+#include "tests/unit/driver_raw_terminal.hpp"
 
 namespace bladefit {
 namespace {
@@ -35,15 +36,7 @@ class Cable {
     std::filesystem::remove_all(folder_);
   }
 
-  void plug_in() {
-    std::array<char, 128> name{};
-    ASSERT_EQ(::openpty(&machine_, &host_, name.data(), nullptr, nullptr), 0);
-    termios raw{};
-    ::tcgetattr(host_, &raw);
-    ::cfmakeraw(&raw);
-    ::tcsetattr(host_, TCSANOW, &raw);
-    std::filesystem::create_symlink(name.data(), device);
-  }
+  void plug_in() { std::filesystem::create_symlink(open_raw_terminal(machine_, host_), device); }
 
   void pull() {
     if (machine_ < 0) return;
@@ -78,20 +71,6 @@ class Cable {
 };
 
 std::string point_line(int sequence) { return encode_line("PT," + std::to_string(sequence) + ",1.25,2,3,0,0,1,9"); }
-
-/// Sequences that come within `within`, until `count` are there.
-std::vector<std::uint32_t> collect(ProbeSource& source, std::size_t count, milliseconds within = milliseconds(2000)) {
-  std::vector<std::uint32_t> sequences;
-  const auto deadline = std::chrono::steady_clock::now() + within;
-  std::array<ProbePoint, 2> points;
-  while (sequences.size() < count && std::chrono::steady_clock::now() < deadline) {
-    const std::size_t came = source.poll(points, milliseconds(10));
-    for (std::size_t index = 0; index < came; ++index) sequences.push_back(points[index].sequence);
-  }
-  return sequences;
-}
-
-using Sequences = std::vector<std::uint32_t>;
 
 SourceSettings serial_settings(const Cable& cable) {
   SourceSettings settings;

@@ -16,6 +16,8 @@ struct DesignFile {
   std::vector<NurbsSurface> surfaces;  ///< at least one; patch k of the design is surfaces[k]
   DesignUnit unit = DesignUnit::mm;    ///< in which lengths of this design are shown
   std::vector<std::string> warnings;   ///< one line each: what was mended or left out
+  std::vector<std::string>
+      trimmed;  ///< faces bounded inside their surface, which is used whole; as the file names them
 };
 
 /// Which side of the surface is away from the material.
@@ -29,6 +31,7 @@ enum class OutwardOption {
 struct LoadedDesign {
   std::vector<std::byte> image;    ///< valid for DesignImage::open
   std::vector<std::string> notes;  ///< warnings, and the outward side taken and why; one line each
+  std::string warning;             ///< what may make verdicts wrong; one line, empty = nothing
 };
 
 /// Reads the B-spline surfaces of `path` (.igs .iges .stp .step, in any case of letters): those of IGES in the order of

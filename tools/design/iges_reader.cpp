@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "tools/design/cad_session.hpp"
+#include "tools/design/face_trim.hpp"
 #include "tools/design/iges_global.hpp"
 #include "tools/design/iges_surface.hpp"
 #include "tools/design/iges_text.hpp"
@@ -17,9 +19,9 @@ constexpr int kMaxMatrices = 8;
 /// How far the columns of a matrix may be from orthonormal, as printed numbers are, without a warning.
 constexpr double kOrthonormal = 1e-6;
 
-/// Entities that place copies of others, and entities whose surface is only partly used.
+/// Entities that place copies of others, and entities that bound a surface.
 constexpr int kInstanceTypes[] = {408, 412, 414, 430};
-constexpr int kTrimmedTypes[] = {143, 144};
+constexpr int kBoundedTypes[] = {143, 144, 510};
 
 std::string list_types(const std::map<int, int>& counts) {
   std::string list;
@@ -44,10 +46,9 @@ void check_types(const IgesText& text, DesignFile& design, const std::string& fi
                     "blade alone, without instances",
                     file, type));
   }
-  for (const int type : kTrimmedTypes) {
-    if (counts.count(type) == 0) continue;
-    design.warnings.push_back(
-        fmt::format("trimmed surfaces (entity {}) are used whole, as if they were not trimmed", type));
+  const auto occurs = [&counts](int type) { return counts.count(type) > 0; };
+  if (std::ranges::any_of(kBoundedTypes, occurs)) {
+    design.trimmed = with_cad_library(file, [&file] { return trimmed_iges_faces(file); });
   }
 }
 

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "tools/design/design_file.hpp"
+#include "tools/design/face_trim.hpp"
 #include "tools/design/image_writer.hpp"
 #include "tools/design/outward_side.hpp"
 
@@ -54,7 +55,8 @@ LoadedDesign load_design(const std::filesystem::path& path, OutwardOption outwar
   if (lower_extension(path) == ".bfd") return load_image(path, outward);
   const DesignFile file = read_design(path);
   const OutwardSide side = choose_side(file, path.string(), outward);
-  LoadedDesign design{write_image(file.surfaces, file.unit, side.sign), file.warnings};
+  LoadedDesign design{write_image(file.surfaces, file.unit, side.sign), file.warnings,
+                      trim_warning(path.string(), file.trimmed)};
   design.notes.push_back(side_note(side.sign, side.reason));
   return design;
 }

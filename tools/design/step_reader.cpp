@@ -4,10 +4,12 @@
 #include <Interface_Check.hxx>
 #include <STEPControl_Reader.hxx>
 #include <StepGeom_BSplineSurface.hxx>
+#include <StepGeom_RectangularTrimmedSurface.hxx>
 #include <StepRepr_MappedItem.hxx>
 #include <StepRepr_RepresentationRelationshipWithTransformation.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopoDS_Shape.hxx>
 
 #include <algorithm>
 #include <charconv>
@@ -15,6 +17,7 @@
 #include <optional>
 
 #include "tools/design/cad_session.hpp"
+#include "tools/design/face_trim.hpp"
 #include "tools/design/step_surface.hpp"
 #include "tools/design/step_text.hpp"
 #include "tools/design/step_unit.hpp"
@@ -91,6 +94,31 @@ std::vector<NamedSurface> find_surfaces(const StepData_StepModel& model, const s
   return surfaces;
 }
 
+bool lies_on_a_bspline(const StepShape_FaceSurface& face) {
+  Handle(StepGeom_Surface) surface = face.FaceGeometry();
+  if (const auto part = Handle(StepGeom_RectangularTrimmedSurface)::DownCast(surface); !part.IsNull()) {
+    surface = part->BasisSurface();
+  }
+  return !surface.IsNull() && surface->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface));
+}
+
+/// Names of the faces that are bounded inside their B-spline surface.
+std::vector<std::string> find_trimmed(STEPControl_Reader& reader) {
+  const Handle(StepData_StepModel) model = reader.StepModel();
+  std::vector<std::string> names;
+  for (int k = 1; k <= model->NbEntities(); ++k) {
+    const auto face = Handle(StepShape_FaceSurface)::DownCast(model->Value(k));
+    if (face.IsNull() || !lies_on_a_bspline(*face)) continue;
+    reader.ClearShapes();
+    reader.TransferEntity(face);
+    if (!is_trimmed(reader.OneShape())) continue;
+    const std::string label = face->Name().IsNull() ? "" : face->Name()->ToCString();
+    names.push_back(
+        fmt::format("face #{}{}", model->IdentLabel(face), label.empty() ? "" : fmt::format(" ({})", label)));
+  }
+  return names;
+}
+
 /// By the number of the face where all are named PATCHk; else by that of the entity.
 void sort_surfaces(std::vector<NamedSurface>& surfaces) {
   const bool named = std::all_of(surfaces.begin(), surfaces.end(),
@@ -124,6 +152,7 @@ DesignFile read_model(const std::string& file) {
         fmt::format("surface #{}{}", surface.number, surface.face.empty() ? "" : fmt::format(" ({})", surface.face));
     design.surfaces.push_back(read_step_surface(surface.entity, name, unit.mm, file));
   }
+  design.trimmed = find_trimmed(reader);
   return design;
 }
 
