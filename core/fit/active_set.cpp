@@ -105,12 +105,11 @@ class Solver {
       set_.set_offset(k, offset_of(half_space(constraints_, m.index, m.side)));
     }
     now_ = set_.minimum(-v_);
-    for (int k = 0; k < kMaxVariables && set_.size() > 0; ++k) {
-      Eigen::Index least = 0;
-      const Vec8 held = now_.multipliers;
-      for (int i = 1; i < set_.size(); ++i) least = held[i] < held[least] ? i : least;
-      if (held[least] >= 0.0) break;
-      leave(static_cast<int>(least), -v_);
+    while (set_.size() > 0) {
+      int least = 0;
+      for (int k = 1; k < set_.size(); ++k) least = now_.multipliers[k] < now_.multipliers[least] ? k : least;
+      if (now_.multipliers[least] >= 0.0) return;
+      leave(least, -v_);
     }
   }
 
@@ -210,16 +209,8 @@ class Solver {
       const WorkingSet::Member m = set_.member(k);
       certificate_.entries[static_cast<std::size_t>(certificate_.count++)] = {m.index, m.side, -coefficients[k]};
     }
-    Vec8 sum = Vec8::Zero();
-    double margin = 0.0, terms = 0.0;
-    for (int k = 0; k < certificate_.count; ++k) {
-      const ActiveSet::Entry& entry = certificate_.entries[static_cast<std::size_t>(k)];
-      const HalfSpace h = half_space(constraints_, entry.index, entry.side);
-      sum += entry.multiplier * h.normal;
-      margin += entry.multiplier * h.offset;
-      terms += std::abs(entry.multiplier * h.offset);
-    }
-    const bool proven = margin > 16.0 * kEpsilon * terms + 8.0 * sum.norm() * x().norm();
+    const FarkasMargin proof = farkas_margin(constraints_, certificate_);
+    const bool proven = proof.margin > 16.0 * kEpsilon * proof.terms + 8.0 * proof.combination * x().norm();
     return proven ? Status::infeasible : Status::precision_limit;
   }
 
@@ -234,17 +225,7 @@ class Solver {
   /// The direction in which the last proximal step went meets no bound.
   [[nodiscard]] bool falls_for_ever() const {
     const Vec8 direction = -set_.split(gradient_).rest;
-    const double length = direction.norm();
-    if (!(length > 0.0)) return false;
-    const int count = constraints_.rows.count + constraints_.variables;
-    for (int i = 0; i < count; ++i) {
-      for (const Side side : {Side::lower, Side::upper}) {
-        const HalfSpace h = half_space(constraints_, i, side);
-        if (h.offset == -kInfinity) continue;
-        if (h.normal.dot(direction) < -kRounding * h.normal.norm() * length) return false;
-      }
-    }
-    return true;
+    return direction.norm() > 0.0 && recedes(constraints_, direction, kRounding);
   }
 
   ActiveSetResult finish(Status status) {

@@ -49,6 +49,30 @@ void gaps(const ConstraintRows& rows, const Vec8& x, int first, int count, Gaps&
   }
 }
 
+struct ColumnSummary {
+  double largest = 0;  ///< |value|
+  double doubt = 0;    ///< 0, or NaN where a value is a NaN or an infinity that counts
+};
+
+/// Values are cut to [-below, above] first, so that an infinity counts only where there is no such cut.
+ColumnSummary summary_of(const double* column, int count, double above, double below) {
+  Block most{}, doubt{};
+  for (int first = 0; first < count; first += kBlock) {
+    const auto n = static_cast<std::size_t>(std::min(kBlock, count - first));
+    const double* values = column + first;
+    for (std::size_t i = 0; i < n; ++i) {
+      // In this order the comparisons let a NaN pass.
+      const double cut = above < values[i] ? above : values[i];
+      const double value = cut < -below ? -below : cut;
+      doubt[i] += 0.0 * value;
+      most[i] = larger(std::abs(value), most[i]);
+    }
+  }
+  ColumnSummary out{largest(most), 0.0};
+  for (const double value : doubt) out.doubt += value;
+  return out;
+}
+
 void insert(Violations& list, const Violations::Entry& entry) {
   const auto capacity = static_cast<int>(list.entries.size());
   if (list.count < capacity) {
@@ -85,6 +109,18 @@ HalfSpace half_space(const Constraints& constraints, int index, Side side) {
   return out;
 }
 
+bool recedes(const Constraints& constraints, const Vec8& direction, double rounding) {
+  const int count = constraints.rows.count + constraints.variables;
+  for (int i = 0; i < count; ++i) {
+    for (const Side side : {Side::lower, Side::upper}) {
+      const HalfSpace h = half_space(constraints, i, side);
+      const double least = -rounding * h.normal.norm() * direction.norm();
+      if (h.offset > -kInfinity && h.normal.dot(direction) < least) return false;
+    }
+  }
+  return true;
+}
+
 bool well_formed(const Constraints& constraints) {
   const ConstraintRows& rows = constraints.rows;
   const int n = constraints.variables;
@@ -97,31 +133,20 @@ bool well_formed(const Constraints& constraints) {
 RowMagnitudes magnitudes(const Constraints& constraints) {
   const ConstraintRows& rows = constraints.rows;
   RowMagnitudes out;
-  // 0 where all is well: a NaN or an infinity times 0 is a NaN. Of a bound, only its bad infinity counts.
-  Block doubt{};
-  const auto scan = [&](const double* column, const auto& of_entry) {
-    Block most{};
-    for (int first = 0; column && first < rows.count; first += kBlock) {
-      const auto n = static_cast<std::size_t>(std::min(kBlock, rows.count - first));
-      for (std::size_t i = 0; i < n; ++i) {
-        const double value = column[static_cast<std::size_t>(first) + i];
-        doubt[i] += 0.0 * of_entry(value);
-        most[i] = larger(std::abs(value), most[i]);
-      }
-    }
-    return largest(most);
+  double doubt = 0.0;
+  const auto take = [&](const double* column, double above, double below) {
+    const ColumnSummary summary = column ? summary_of(column, rows.count, above, below) : ColumnSummary{};
+    doubt += summary.doubt;
+    return summary.largest;
   };
-  const auto itself = [](double value) { return value; };
-  for (int j = 0; j < rows.width; ++j) out.largest[j] = scan(rows.coefficients + j * rows.stride, itself);
-  const double weight = rows.weight ? scan(rows.weight, itself) : 1.0;
-  scan(rows.lower, [](double value) { return value < 0.0 ? 0.0 : value; });
-  scan(rows.upper, [](double value) { return value > 0.0 ? 0.0 : value; });
+  for (int j = 0; j < rows.width; ++j) out.largest[j] = take(rows.coefficients + j * rows.stride, kInfinity, kInfinity);
+  const double weight = rows.weight ? take(rows.weight, kInfinity, kInfinity) : 1.0;
+  take(rows.lower, kInfinity, 0.0);
+  take(rows.upper, 0.0, kInfinity);
   for (const int l : {rows.lower_level, rows.upper_level}) {
     if (l >= 0) out.largest[l] += weight;
   }
-  double total = 0.0;
-  for (const double value : doubt) total += value;
-  out.usable = total == 0.0;
+  out.usable = doubt == 0.0;
   for (int j = 0; j < constraints.variables; ++j) {
     const bool bounded = constraints.lower[j] > -kInfinity || constraints.upper[j] < kInfinity;
     out.largest[j] = larger(out.largest[j], bounded ? 1.0 : 0.0);

@@ -48,6 +48,9 @@ struct HalfSpace {
 /// The side of constraint `index` in 0..rows.count + variables - 1. Offset -infinity: no bound there.
 [[nodiscard]] HalfSpace half_space(const Constraints& constraints, int index, Side side);
 
+/// True where a move along `direction` leads out of no half space, normals and direction compared to rounding.
+[[nodiscard]] bool recedes(const Constraints& constraints, const Vec8& direction, double rounding);
+
 /// False where a size, level or pointer does not fit. Cost: none.
 [[nodiscard]] bool well_formed(const Constraints& constraints);
 

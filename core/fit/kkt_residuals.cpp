@@ -6,18 +6,25 @@
 namespace bladefit {
 namespace {
 
-/// offset - normal'x, straight from the caller's numbers.
-double violation(const Constraints& constraints, int index, Side side, const Vec8& x) {
-  const HalfSpace h = half_space(constraints, index, side);
-  return h.offset - h.normal.dot(x);
+/// Row by row from the caller's numbers, apart from the search of constraint_rows.cpp.
+double largest_row_violation(const ConstraintRows& rows, const Vec8& x) {
+  double largest = 0.0;
+  const double down = rows.lower_level < 0 ? 0.0 : x[rows.lower_level];
+  const double up = rows.upper_level < 0 ? 0.0 : x[rows.upper_level];
+  for (int i = 0; i < rows.count; ++i) {
+    double value = 0.0;
+    for (int j = 0; j < rows.width; ++j) value += rows.coefficients[j * rows.stride + i] * x[j];
+    const double weight = rows.weight ? rows.weight[i] : 1.0;
+    if (rows.lower) largest = std::max(largest, rows.lower[i] - (value + weight * down));
+    if (rows.upper) largest = std::max(largest, value - weight * up - rows.upper[i]);
+  }
+  return largest;
 }
 
 double largest_violation(const Constraints& constraints, const Vec8& x) {
-  double largest = 0.0;
-  const int count = constraints.rows.count + constraints.variables;
-  for (int i = 0; i < count; ++i) {
-    largest = std::max(largest, violation(constraints, i, Side::lower, x));
-    largest = std::max(largest, violation(constraints, i, Side::upper, x));
+  double largest = largest_row_violation(constraints.rows, x);
+  for (int j = 0; j < constraints.variables; ++j) {
+    largest = std::max({largest, constraints.lower[j] - x[j], x[j] - constraints.upper[j]});
   }
   return largest;
 }
@@ -46,6 +53,20 @@ KktResiduals kkt_residuals(const Mat8* hessian, const Vec8& gradient, const Cons
   const double scale = terms.head(n).maxCoeff();
   out.stationarity = scale > 0.0 ? sum.head(n).cwiseAbs().maxCoeff() / scale : 0.0;
   out.primal = largest_violation(constraints, x);
+  return out;
+}
+
+FarkasMargin farkas_margin(const Constraints& constraints, const ActiveSet& certificate) {
+  FarkasMargin out;
+  Vec8 sum = Vec8::Zero();
+  for (int k = 0; k < certificate.count; ++k) {
+    const ActiveSet::Entry& entry = certificate.entries[static_cast<std::size_t>(k)];
+    const HalfSpace h = half_space(constraints, entry.index, entry.side);
+    sum += entry.multiplier * h.normal;
+    out.margin += entry.multiplier * h.offset;
+    out.terms += std::abs(entry.multiplier * h.offset);
+  }
+  out.combination = sum.norm();
   return out;
 }
 
