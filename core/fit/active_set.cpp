@@ -18,12 +18,8 @@ constexpr double kFirstStep = 1e4, kStepGrowth = 1e3;
 /// A multiplier, or what is left of a gradient, this small against the whole is rounding.
 constexpr double kRounding = 1e-12;
 
-bool below(const Vec8& values, double least, int count) {
-  for (int k = 0; k < count; ++k) {
-    if (values[k] < least) return true;
-  }
-  return false;
-}
+/// 0 for none.
+double smallest(const Vec8& values, int count) { return count > 0 ? values.head(count).minCoeff() : 0.0; }
 
 /// One problem: about a centre, in the variables y = L'(x - centre) with H = L L', the objective is 1/2 |y + v|^2.
 /// Linear objectives have L = 1 and v = step g.
@@ -45,11 +41,12 @@ class Solver {
     for (int pass = 0; pass < kMaxPasses; ++pass) {
       const int before = changes_;
       recentre();
+      let_go();
       status = satisfy_all();
       if (status != Status::ok) break;
       if (settled()) {
         recentre();
-        break;
+        if (least_multiplier() >= -kRounding * now_.multipliers.cwiseAbs().maxCoeff()) break;
       }
       if (changes_ == before && falls_for_ever()) {
         status = Status::unbounded;
@@ -72,9 +69,10 @@ class Solver {
     return options_.feasibility + 16.0 * kEpsilon * largest_.dot(x().cwiseAbs());
   }
 
-  Violations scan() {
+  /// One pass over the rows; what it finds waits to enter.
+  void scan() {
     ++scans_;
-    return most_violated(constraints_, x(), tolerance());
+    waiting_ = most_violated(constraints_, x(), tolerance());
   }
 
   /// The working set of a similar problem, and the length of the first proximal step.
@@ -86,17 +84,17 @@ class Solver {
     }
     const double g = gradient_.norm();
     if (hessian_ || !(g > 0.0)) return;
-    waiting_ = scan();
+    scan();
     double distance = 0.0;
     for (int k = 0; k < waiting_.count; ++k) {
       const Violations::Entry& entry = waiting_.entries[static_cast<std::size_t>(k)];
-      distance = std::max(distance, entry.amount / half_space(constraints_, entry.index, entry.side).normal.norm());
+      distance = std::max(distance, entry.amount / entry.half_space.normal.norm());
     }
     const bool measured = distance > 0.0 && distance < kInfinity;
     step_ = (measured ? kFirstStep * distance : 1.0 + centre_.norm()) / g;
   }
 
-  /// Takes x as the centre, so that a second solve refines the first, and lets go what pushes the wrong way.
+  /// Takes x as the centre, so that a second solve refines the first.
   void recentre() {
     centre_ = x();
     v_ = hessian_ ? factor_->solve_lower(Vec8(*hessian_ * centre_ + gradient_)) : Vec8(step_ * gradient_);
@@ -105,10 +103,15 @@ class Solver {
       set_.set_offset(k, offset_of(half_space(constraints_, m.index, m.side)));
     }
     now_ = set_.minimum(-v_);
-    while (set_.size() > 0) {
+  }
+
+  [[nodiscard]] double least_multiplier() const { return smallest(now_.multipliers, set_.size()); }
+
+  /// What pushes the wrong way leaves, until nothing does: at most 8 times.
+  void let_go() {
+    while (least_multiplier() < 0.0) {
       int least = 0;
-      for (int k = 1; k < set_.size(); ++k) least = now_.multipliers[k] < now_.multipliers[least] ? k : least;
-      if (now_.multipliers[least] >= 0.0) return;
+      (void)now_.multipliers.head(set_.size()).minCoeff(&least);
       leave(least, -v_);
     }
   }
@@ -119,11 +122,12 @@ class Solver {
     now_ = set_.minimum(pull);
   }
 
-  /// Rows enter until a pass finds none violated.
+  /// Rows enter until a pass finds none violated. Each turn changes the working set or ends, so that the cap on changes
+  /// is one on turns.
   Status satisfy_all() {
     for (;;) {
       const bool stale = waiting_.count > 0;
-      if (!stale) waiting_ = scan();
+      if (!stale) scan();
       if (waiting_.count == 0) return Status::ok;
       const int before = changes_;
       const Status status = work_off();
@@ -143,49 +147,28 @@ class Solver {
       int choice = -1;
       for (int k = 0; k < waiting_.count; ++k) {
         const Violations::Entry& entry = waiting_.entries[static_cast<std::size_t>(k)];
-        const HalfSpace h = half_space(constraints_, entry.index, entry.side);
-        const double amount = h.offset - h.normal.dot(at);
+        const double amount = entry.half_space.offset - entry.half_space.normal.dot(at);
         if (!(amount > worst) || set_.find(entry.index, entry.side) >= 0) continue;
         worst = amount;
         choice = k;
       }
       if (choice < 0) return Status::ok;
-      const Violations::Entry& entry = waiting_.entries[static_cast<std::size_t>(choice)];
-      const Status status = enter({entry.index, entry.side});
+      const Status status = enter(waiting_.entries[static_cast<std::size_t>(choice)]);
       if (status != Status::ok) return status;
     }
   }
 
-  /// The member whose multiplier reaches 0 first as that of the entering row grows.
-  struct Ratio {
-    double step = kInfinity;
-    int member = -1;
-  };
-  [[nodiscard]] Ratio first_to_leave(const Vec8& coefficients, double entering_norm) const {
-    Ratio out;
-    double pivot = 0.0;
-    for (int k = 0; k < set_.size(); ++k) {
-      const double size = coefficients[k] * set_.normal(k).norm();
-      if (!(size > kRounding * entering_norm)) continue;
-      const double ratio = std::max(0.0, now_.multipliers[k]) / coefficients[k];
-      // Of equals the one with the largest pivot, for the sake of the factor.
-      if (ratio > out.step || (ratio == out.step && size <= pivot)) continue;
-      out = {ratio, k};
-      pivot = size;
-    }
-    return out;
-  }
-
-  Status enter(const WorkingSet::Member& member) {
-    const HalfSpace h = half_space(constraints_, member.index, member.side);
-    const Vec8 normal = normal_of(h);
-    const double offset = offset_of(h);
+  /// One row enters; those whose multiplier reaches 0 on the way leave, at most 8.
+  Status enter(const Violations::Entry& entry) {
+    const WorkingSet::Member member{entry.index, entry.side};
+    const Vec8 normal = normal_of(entry.half_space);
+    const double offset = offset_of(entry.half_space);
     double multiplier = 0.0;
     for (int k = 0; k <= kMaxVariables; ++k) {
       const WorkingSet::Split split = set_.split(normal);
       const double slope = split.rest.squaredNorm();
       const double full = slope > 0.0 ? std::max(0.0, offset - normal.dot(now_.y)) / slope : kInfinity;
-      const Ratio partial = first_to_leave(split.coefficients, normal.norm());
+      const WorkingSet::Ratio partial = set_.first_to_leave(now_.multipliers, split.coefficients, normal.norm());
       if (full == kInfinity && partial.member < 0) return certify(member, split.coefficients);
       if (full <= partial.step) {
         if (!set_.append(member, normal, offset)) return Status::precision_limit;
@@ -219,7 +202,7 @@ class Solver {
     if (hessian_) return true;
     const WorkingSet::Split split = set_.split(gradient_);
     const double scale = split.coefficients.cwiseAbs().maxCoeff();
-    return split.rest.isZero(0.0) && !below(split.coefficients, -kRounding * scale, set_.size());
+    return split.rest.isZero(0.0) && smallest(split.coefficients, set_.size()) >= -kRounding * scale;
   }
 
   /// The direction in which the last proximal step went meets no bound.
@@ -234,10 +217,12 @@ class Solver {
     out.objective = gradient_.dot(out.x) + (hessian_ ? 0.5 * out.x.dot(*hessian_ * out.x) : 0.0);
     out.changes = changes_;
     out.active.count = set_.size();
+    const double rounding = kRounding * now_.multipliers.cwiseAbs().maxCoeff();
+    const double scale = hessian_ ? 1.0 : (step_ > 0.0 ? 1.0 / step_ : 0.0);
+    const auto cut = [&](double multiplier) { return std::abs(multiplier) <= rounding ? 0.0 : multiplier; };
     for (int k = 0; k < set_.size(); ++k) {
       const WorkingSet::Member m = set_.member(k);
-      const double multiplier = hessian_ || step_ == 0.0 ? now_.multipliers[k] : now_.multipliers[k] / step_;
-      out.active.entries[static_cast<std::size_t>(k)] = {m.index, m.side, multiplier};
+      out.active.entries[static_cast<std::size_t>(k)] = {m.index, m.side, scale * cut(now_.multipliers[k])};
     }
     out.residuals = kkt_residuals(hessian_, gradient_, constraints_, out.x, out.active);
     out.scans = scans_ + 2;
@@ -273,12 +258,6 @@ bool indices_fit(const ActiveSet& warm, const Constraints& constraints) {
   return true;
 }
 
-ActiveSetResult refused(Status status) {
-  ActiveSetResult out;
-  out.status = status;
-  return out;
-}
-
 /// The first `count` numbers, 0 behind them.
 Vec8 head(const Vec8& vector, int count) {
   Vec8 out = Vec8::Zero();
@@ -290,25 +269,25 @@ Vec8 head(const Vec8& vector, int count) {
 
 ActiveSetResult minimize_quadratic(const Mat8& hessian, const Vec8& gradient, const Constraints& constraints,
                                    const ActiveSet& warm, const ActiveSetOptions& options) {
-  if (!well_formed(constraints) || !indices_fit(warm, constraints)) return refused(Status::out_of_range);
+  if (!well_formed(constraints) || !indices_fit(warm, constraints)) return {.status = Status::out_of_range};
   const int n = constraints.variables;
   const RowMagnitudes rows = magnitudes(constraints);
   Mat8 padded = Mat8::Identity();
   padded.topLeftCorner(n, n) = hessian.topLeftCorner(n, n);
   const Vec8 g = head(gradient, n);
-  if (!rows.usable || !padded.allFinite() || !g.allFinite()) return refused(Status::not_finite);
+  if (!rows.usable || !padded.allFinite() || !g.allFinite()) return {.status = Status::not_finite};
   const CholeskyFactor<kMaxVariables> factor(padded);
-  if (!factor.positive_definite()) return refused(Status::not_convex);
+  if (!factor.positive_definite()) return {.status = Status::not_convex};
   return Solver(&padded, &factor, g, constraints, options, rows.largest).run(Vec8::Zero(), warm);
 }
 
 ActiveSetResult minimize_linear(const Vec8& gradient, const Constraints& constraints, const Vec8& start,
                                 const ActiveSet& warm, const ActiveSetOptions& options) {
-  if (!well_formed(constraints) || !indices_fit(warm, constraints)) return refused(Status::out_of_range);
+  if (!well_formed(constraints) || !indices_fit(warm, constraints)) return {.status = Status::out_of_range};
   const int n = constraints.variables;
   const RowMagnitudes rows = magnitudes(constraints);
   const Vec8 g = head(gradient, n), from = head(start, n);
-  if (!rows.usable || !g.allFinite() || !from.allFinite()) return refused(Status::not_finite);
+  if (!rows.usable || !g.allFinite() || !from.allFinite()) return {.status = Status::not_finite};
   return Solver(nullptr, nullptr, g, constraints, options, rows.largest).run(from, warm);
 }
 

@@ -35,8 +35,8 @@ struct ActiveSetResult {
   double objective = 0;
   /// At a minimum: the active constraints and multipliers. Where infeasible: Farkas' certificate, constraints
   /// c_k'x >= d_k and multipliers with sum lambda_k c_k = 0 and sum lambda_k d_k > 0.
-  ActiveSet active;
-  KktResiduals residuals;
+  ActiveSet active = {};
+  KktResiduals residuals = {};
   int changes = 0;  ///< constraints that entered or left the working set
   int scans = 0;    ///< passes over all rows
 };
@@ -52,7 +52,7 @@ struct ActiveSetResult {
 /// Statuses: ok; iteration_cap, precision_limit (x is the best so far, violated by residuals.primal); infeasible;
 /// not_convex; not_finite (a coefficient, weight, bound, H or g); out_of_range (a size, level, pointer or index).
 /// Cost: passes over the rows, 4 at least (numbers, search, proof of the end, residuals), and some microseconds a
-/// change. Memory: about 6 kB of stack.
+/// change. Memory: about 10 kB of stack.
 [[nodiscard]] ActiveSetResult minimize_quadratic(const Mat8& hessian, const Vec8& gradient,
                                                  const Constraints& constraints, const ActiveSet& warm = {},
                                                  const ActiveSetOptions& options = {});

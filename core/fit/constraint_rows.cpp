@@ -86,7 +86,7 @@ void insert(Violations& list, const Violations::Entry& entry) {
 
 void insert_worst(Violations& list, const Block& gap, double worst, int first, Side side) {
   const auto* at = std::find(gap.begin(), gap.end(), worst);
-  insert(list, {worst, first + static_cast<int>(at - gap.begin()), side});
+  insert(list, {worst, first + static_cast<int>(at - gap.begin()), side, {}});
 }
 
 }  // namespace
@@ -167,8 +167,12 @@ Violations most_violated(const Constraints& constraints, const Vec8& x, double t
   }
   for (int j = 0; j < constraints.variables; ++j) {
     const double lower = constraints.lower[j] - x[j], upper = x[j] - constraints.upper[j];
-    if (lower > tolerance) insert(out, {lower, rows.count + j, Side::lower});
-    if (upper > tolerance) insert(out, {upper, rows.count + j, Side::upper});
+    if (lower > tolerance) insert(out, {lower, rows.count + j, Side::lower, {}});
+    if (upper > tolerance) insert(out, {upper, rows.count + j, Side::upper, {}});
+  }
+  for (int k = 0; k < out.count; ++k) {
+    Violations::Entry& entry = out.entries[static_cast<std::size_t>(k)];
+    entry.half_space = half_space(constraints, entry.index, entry.side);
   }
   return out;
 }

@@ -68,6 +68,7 @@ struct Violations {
     double amount = 0;  ///< offset - normal'x > 0
     int index = 0;
     Side side = Side::lower;
+    HalfSpace half_space = {};
   };
   std::array<Entry, 32> entries;
   int count = 0;

@@ -1,10 +1,14 @@
 #include "core/fit/working_set.hpp"
 
+#include <algorithm>
+
 namespace bladefit {
 namespace {
 
 /// A rest this small against the whole is rounding.
 constexpr double kRounding = 1e-13;
+/// A coefficient this small would leave a factor that is mostly rounding.
+constexpr double kLeastPivot = 1e-12;
 
 }  // namespace
 
@@ -82,6 +86,21 @@ WorkingSet::Minimum WorkingSet::minimum(const Vec8& pull) const {
   out.y = p.rest;
   for (int k = 0; k < size_; ++k) out.y += along[k] * q_.col(k);
   out.multipliers = solve(along - p.within);
+  return out;
+}
+
+WorkingSet::Ratio WorkingSet::first_to_leave(const Vec8& multipliers, const Vec8& coefficients, double norm) const {
+  Ratio out;
+  double pivot = 0.0;
+  for (int k = 0; k < size_; ++k) {
+    const double size = coefficients[k] * normals_.col(k).norm();
+    if (!(size > kLeastPivot * norm)) continue;
+    const double ratio = std::max(0.0, multipliers[k]) / coefficients[k];
+    // Of equals the one with the largest pivot, for the sake of the factor.
+    if (ratio > out.step || (ratio == out.step && size <= pivot)) continue;
+    out = {ratio, k};
+    pivot = size;
+  }
   return out;
 }
 

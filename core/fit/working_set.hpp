@@ -19,7 +19,6 @@ class WorkingSet {
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] Member member(int k) const { return members_[static_cast<std::size_t>(k)]; }
-  [[nodiscard]] Vec8 normal(int k) const { return normals_.col(k); }
   /// -1: not a member.
   [[nodiscard]] int find(int index, Side side) const;
 
@@ -41,6 +40,14 @@ class WorkingSet {
     Vec8 multipliers = Vec8::Zero();
   };
   [[nodiscard]] Minimum minimum(const Vec8& pull) const;
+
+  /// The member whose multiplier reaches 0 first when all of them move by -step * coefficients; -1: none does.
+  struct Ratio {
+    double step = std::numeric_limits<double>::infinity();
+    int member = -1;
+  };
+  /// `norm`: of the normal that the coefficients belong to, against which a coefficient may be rounding.
+  [[nodiscard]] Ratio first_to_leave(const Vec8& multipliers, const Vec8& coefficients, double norm) const;
 
  private:
   struct Projection {
