@@ -16,6 +16,8 @@ const char* status_text(Status status) {
       return "the sequence number is not above the last one";
     case Status::iteration_cap:
       return "the iteration limit was reached before convergence";
+    case Status::precision_limit:
+      return "double precision does not decide the problem: scale it better";
     case Status::null_argument:
       return "an argument is null";
     case Status::not_enough_memory:
@@ -28,6 +30,12 @@ const char* status_text(Status status) {
       return "a value is out of its range";
     case Status::not_found:
       return "no such point";
+    case Status::infeasible:
+      return "no solution satisfies all constraints";
+    case Status::unbounded:
+      return "the objective has no minimum on the constraints";
+    case Status::not_convex:
+      return "the Hessian is not positive definite";
     case Status::bad_magic:
       return "not a bladefit design image";
     case Status::bad_version:

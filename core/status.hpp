@@ -12,12 +12,16 @@ enum class Status : std::int32_t {
   memory_full = 3,      ///< judged and counted, but the point's place will not be revisited
   duplicate = 4,        ///< the sequence number is not above the last one; nothing changed
   iteration_cap = 5,    ///< the best answer so far, not a converged one
+  precision_limit = 6,  ///< the best answer that double precision gives; its residuals say how good it is
   null_argument = -1,
   not_enough_memory = -2,
   misaligned = -3,
   not_finite = -4,
   out_of_range = -5,
   not_found = -6,
+  infeasible = -7,
+  unbounded = -8,
+  not_convex = -9,
   bad_magic = -20,    ///< not a design image
   bad_version = -21,  ///< an image of another format version
   bad_length = -22,   ///< the image is shorter or longer than it says

@@ -5,7 +5,7 @@ set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config libeigen3-dev libmodbus-dev libserialport-dev libocct-data-exchange-dev
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libboost-dev)
 if [[ "${1:-}" == "--tests" ]]; then
-  packages+=(libgtest-dev librapidcheck-dev mbpoll python3 valgrind clang-format clang-tidy binutils git)
+  packages+=(libgtest-dev librapidcheck-dev libnlopt-dev mbpoll python3 valgrind clang-format clang-tidy binutils git)
 elif [[ $# -gt 0 ]]; then
   echo "usage: tools/install.sh [--tests]" >&2
   exit 2

@@ -3,19 +3,29 @@
 
 namespace bladefit {
 
-/// Cholesky factor of a symmetric positive definite 6 x 6 matrix. Eigen's own decompositions refer to the heap even at
-/// fixed sizes, which core/ may not.
-class Cholesky {
+/// Cholesky factor L L' of a symmetric positive definite N x N matrix, N = 6 or 8. Eigen's own decompositions refer to
+/// the heap even at fixed sizes, which core/ may not.
+template <int N>
+class CholeskyFactor {
  public:
-  explicit Cholesky(const Mat6& matrix);
-  /// False: the matrix is not positive definite, and solve() must not be used.
+  using Vector = Eigen::Matrix<double, N, 1, Eigen::DontAlign>;
+  using Matrix = Eigen::Matrix<double, N, N, Eigen::DontAlign>;
+
+  explicit CholeskyFactor(const Matrix& matrix);
+  /// False: the matrix is not positive definite, and nothing below must be used.
   [[nodiscard]] bool positive_definite() const { return positive_definite_; }
-  [[nodiscard]] Vec6 solve(const Vec6& b) const;
-  [[nodiscard]] Mat6 inverse() const;
+  /// L^-1 b.
+  [[nodiscard]] Vector solve_lower(const Vector& b) const;
+  /// L'^-1 b.
+  [[nodiscard]] Vector solve_upper(const Vector& b) const;
+  [[nodiscard]] Vector solve(const Vector& b) const { return solve_upper(solve_lower(b)); }
+  [[nodiscard]] Matrix inverse() const;
 
  private:
-  Mat6 l_ = Mat6::Zero();
+  Matrix l_ = Matrix::Zero();
   bool positive_definite_ = true;
 };
+
+using Cholesky = CholeskyFactor<6>;
 
 }  // namespace bladefit

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "tests/unit/core_programs.hpp"
 #include "tests/unit/core_session.hpp"
 
 namespace {
@@ -196,6 +197,18 @@ TEST(CoreMemory, NothingIsAllocatedInAWholeSession) {
   EXPECT_EQ(found, 1500U);
   EXPECT_GT(revisions, 0U);
   EXPECT_EQ(report.status, FitStatus::converged);
+}
+
+TEST(CoreMemory, NothingIsAllocatedBySolvingPrograms) {
+  std::mt19937_64 random(7);
+  OwnedRows rows = minimax_rows(random, 500, true, 0.05);
+  const Constraints constraints = minimax(rows);
+  AllocationCount count;
+  const ActiveSetResult linear = minimize_linear(Vec8::Unit(6), constraints);
+  const ActiveSetResult quadratic = minimize_quadratic(Mat8::Identity(), Vec8::Unit(6), constraints, linear.active);
+  EXPECT_EQ(count.stop(), 0U);
+  EXPECT_EQ(linear.status, Status::ok);
+  EXPECT_EQ(quadratic.status, Status::ok);
 }
 
 }  // namespace
