@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds, and runs every test. Closes with one line: "bladefit: N passed, N failed".
-#   tests/run.sh            format, and all tests in the preset dev
+#   tests/run.sh            format, lint, and all tests in the preset dev
 #   tests/run.sh PRESET     the tests of one preset only: dev, release, asan-ubsan or tsan
-#   tests/run.sh lint       clang-tidy over the product (slow)
+#   tests/run.sh lint       format and lint only; tests/lint.sh FOLDER lints one folder
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -33,11 +33,6 @@ check() {
 sources() { git ls-files --cached --others --exclude-standard '*.cpp' '*.hpp' '*.c' '*.h'; }
 
 formatted() { sources | xargs clang-format --dry-run --Werror; }
-
-lint() {
-  sources | grep -E '^(core|drivers|config|firmware_bridge|tools)/.*\.cpp$' |
-    xargs -P "$(nproc)" -n 2 clang-tidy -p build/dev --quiet 2>/dev/null
-}
 
 # tests_of PRESET CTEST_ARGUMENTS...: builds a preset, runs its tests and adds up what ctest counted.
 tests_of() {
@@ -70,11 +65,12 @@ tests_of() {
 case "${1:-all}" in
   all)
     check "format (clang-format)" formatted
+    check "lint (clang-tidy)" ./tests/lint.sh
     tests_of dev
     ;;
   lint)
-    cmake --preset dev -DBUILD_TESTING=ON >/dev/null
-    check "lint (clang-tidy)" lint
+    check "format (clang-format)" formatted
+    check "lint (clang-tidy)" ./tests/lint.sh
     ;;
   *) tests_of "$1" ;;
 esac

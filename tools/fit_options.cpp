@@ -28,15 +28,17 @@ double positive(double value, const char* option) {
 
 void plan_boxes(const FitSettings& settings, const DesignImage& design, ToleranceMap& map) {
   if (!settings.leading_edge) return;
-  if (settings.leading_edge->size() > ToleranceMap::kMaxBoxes)
+  if (settings.leading_edge->size() > ToleranceMap::kMaxBoxes) {
     throw DesignError(fmt::format("--leading-edge: {} boxes, at most {} are possible", settings.leading_edge->size(),
                                   ToleranceMap::kMaxBoxes));
+  }
   for (const std::string& text : *settings.leading_edge) {
     ParameterBox box;
     take(parse_leading_edge(text, box));
-    if (box.patch >= design.patches().size())
+    if (box.patch >= design.patches().size()) {
       throw DesignError(fmt::format("--leading-edge {}: the design has {} patch(es), numbered from 0", text,
                                     design.patches().size()));
+    }
     map.boxes[map.box_count++] = box;
   }
 }
@@ -54,9 +56,10 @@ void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
   map.transition = settings.transition.value_or(0.0);
   if (!(map.transition >= 0.0) || map.transition > 1.0)
     throw DesignError(fmt::format("--transition: {} is not a width in patch parameters, 0 to 1", map.transition));
-  if (settings.tolerance && map.box_count == 0)
+  if (settings.tolerance && map.box_count == 0) {
     plan.note = fmt::format("no --leading-edge is given: the whole blade is held to the rest tolerance, {:g} {}",
                             map.rest_mm / plan.mm_per_unit, plan.units);
+  }
 }
 
 void plan_mode(const FitSettings& settings, FitPlan& plan) {

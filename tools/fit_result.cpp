@@ -109,11 +109,12 @@ FitResult fit_points(const DesignImage& design, const FitPlan& plan, const std::
   result.status = status_of(result.report);
   result.verdicts = verdicts_of(localizer, points);
   sum_up(result, before);
-  if (result.all.count < 6)
+  if (result.all.count < 6) {
     throw DesignError(
         fmt::format("{}: {} points count in the fit, at least 6 are needed ({} of {} are outside the window or at an "
                     "edge); probe more points",
                     name, result.all.count, points.size() - result.all.count, points.size()));
+  }
   return result;
 }
 

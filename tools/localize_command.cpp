@@ -35,12 +35,14 @@ std::vector<std::size_t> read_subset(const std::string& path, std::size_t rows) 
     if (last > begin) {
       std::size_t value = 0;
       const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + last, value);
-      if (error != std::errc() || stop != text.data() + last)
+      if (error != std::errc() || stop != text.data() + last) {
         throw DesignError(fmt::format("{}:{}: '{}' is not a row number; write one number, counted from 0, a line", path,
                                       line, text.substr(begin, last - begin)));
-      if (value >= rows)
+      }
+      if (value >= rows) {
         throw DesignError(fmt::format("{}:{}: row {} is not in the points file, which has rows 0 to {}", path, line,
                                       value, rows - 1));
+      }
       indices.push_back(value);
     }
     begin = end + 1;
@@ -59,10 +61,11 @@ std::vector<ProbePoint> read_points(const LocalizeFlags& flags, double mm_per_un
     for (const std::size_t index : read_subset(flags.subset, file.points.size())) chosen.push_back(file.points[index]);
     file.points = std::move(chosen);
   }
-  if (file.points.size() < 6)
+  if (file.points.size() < 6) {
     throw DesignError(
         fmt::format("{}: {} points, at least 6 are needed for the six degrees of freedom; probe more points",
                     flags.subset.empty() ? flags.points : flags.subset, file.points.size()));
+  }
   return file.points;
 }
 

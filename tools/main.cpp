@@ -20,9 +20,8 @@ constexpr const char* kFooter =
     "out.json\n"
     "Exit codes: 0 done, 1 the blade is out of tolerance, 2 wrong use or bad input, 3 device or I/O failure.";
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Takes the command line apart and runs what it asks for; returns the exit code.
+int run(int argc, char** argv) {
   CLI::App app("bladefit: live localization of marine propeller blades on a coordinate measuring machine", "bladefit");
   app.require_subcommand(1);
   app.footer(kFooter);
@@ -41,9 +40,17 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n",
                  error.what());
     return kBadInput;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bladefit: %s\n", error.what());
     return kBadInput;
   }
-  return exit_code;
 }

@@ -71,10 +71,11 @@ std::string operator_summary(const FitResult& result, const FitPlan& plan, const
                       result.all.rms_after / unit, plan.units, result.all.rms_before / unit, plan.units);
   text += fmt::format("Pose: tx {:.5f} ty {:.5f} tz {:.5f} {}; psi {:.7f} theta {:.7f} phi {:.7f} rad\n", t[0], t[1],
                       t[2], plan.units, e.psi, e.theta, e.phi);
-  if (result.leading_edge.count > 0)
+  if (result.leading_edge.count > 0) {
     text +=
         fmt::format("Leading edge: {} points, rms {:.4f} {}, largest {:.4f} {}\n", result.leading_edge.count,
                     result.leading_edge.rms_after / unit, plan.units, result.leading_edge.max_after / unit, plan.units);
+  }
   const std::size_t rejected =
       static_cast<std::size_t>(std::count_if(result.verdicts.begin(), result.verdicts.end(),
                                              [](const Verdict& v) { return v.state == PointState::rejected; }));
