@@ -80,7 +80,7 @@ TEST_P(LeafBounds, SufficeForPointsNearTheSurface) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Designs, LeafBounds, ::testing::Values("arl_fan", "dtmb4119", "pnsy_sub"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& parameter) { return parameter.param; });
 
 /// A roof of two planes that meet at a ridge above y = 0, as one patch of degree 1 or, with a double knot, 2.
 NurbsSurface roof(int degree) {
