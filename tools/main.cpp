@@ -10,6 +10,7 @@
 #include "tools/report_command.hpp"
 #include "tools/run_command.hpp"
 #include "tools/simulate_command.hpp"
+#include "tools/split_command.hpp"
 
 namespace {
 
@@ -29,6 +30,7 @@ int main(int argc, char** argv) {
   app.footer(kFooter);
   int exit_code = 0;
   bladefit::add_loft_command(app, exit_code);
+  bladefit::add_split_command(app, exit_code);
   bladefit::add_compile_command(app, exit_code);
   bladefit::add_localize_command(app, exit_code);
   bladefit::add_simulate_command(app, exit_code);
