@@ -9,6 +9,7 @@
 #include "tools/panel_command.hpp"
 #include "tools/report_command.hpp"
 #include "tools/run_command.hpp"
+#include "tools/sample_command.hpp"
 #include "tools/simulate_command.hpp"
 #include "tools/split_command.hpp"
 
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   bladefit::add_loft_command(app, exit_code);
   bladefit::add_split_command(app, exit_code);
+  bladefit::add_sample_command(app, exit_code);
   bladefit::add_compile_command(app, exit_code);
   bladefit::add_localize_command(app, exit_code);
   bladefit::add_simulate_command(app, exit_code);
