@@ -147,7 +147,7 @@ SurfaceDirection clamped_direction(int degree, const std::vector<double>& intern
   SurfaceDirection direction;
   direction.degree = degree;
   direction.control_points = degree + 1 + static_cast<int>(internal.size());
-  const auto ends = static_cast<std::size_t>(degree + 1);
+  const std::size_t ends = static_cast<std::size_t>(degree) + 1;
   direction.knots.assign(ends, 0.0);
   direction.knots.insert(direction.knots.end(), internal.begin(), internal.end());
   direction.knots.insert(direction.knots.end(), ends, 1.0);
