@@ -87,6 +87,7 @@ TEST(LoftRefuses, WhatDoesNotDetermineASurface) {
   expect(ladder(3, 12), {}, "s.csv: 3 sections are too few for degree 3");
   expect(ladder(4, 3), {}, "s.csv:4: section 0 has 3 points, too few for 4 control points");
   expect(ladder(4, 12), {.control_points = 13}, "section 0 has 12 points, too few for 13 control points");
+  expect(ladder(4, 12), {.control_points = 2000000000}, "too few for 2000000000 control points");
   expect(ladder(4, 12), {.control_points = 3}, "--control-points 3: a curve of degree 3 has at least 4");
   expect(ladder(4, 12), {.degree = 0}, "--degree 0");
   expect(ladder(4, 12), {.span_degree = 10}, "--span-degree 10");

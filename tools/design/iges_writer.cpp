@@ -24,12 +24,7 @@ class Section {
  public:
   explicit Section(char letter) : letter_(letter) {}
 
-  void append(const std::string& text) {
-    if (count_ == kLargestRecordNumber) {
-      throw DesignError("the design has too many control points for an IGES file; write its patches to several files");
-    }
-    text_ += fmt::format("{:<72}{}{:>7}\n", text, letter_, ++count_);
-  }
+  void append(const std::string& text) { text_ += fmt::format("{:<72}{}{:>7}\n", text, letter_, ++count_); }
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] const std::string& text() const { return text_; }
 
@@ -160,6 +155,10 @@ std::string iges_file_text(const IgesOutputHeader& header, const std::vector<Ige
       parameters.append(fmt::format("{:<64}{:>8}", record, directory.count() + 1));
     }
     append_entry(entity, first, parameters.count(), directory);
+  }
+  if (parameters.count() > kLargestRecordNumber || directory.count() > kLargestRecordNumber) {
+    throw DesignError(fmt::format("{}: the design has too many control points for one IGES file; cut it into several",
+                                  header.file_name));
   }
   Section terminate('T');
   terminate.append(

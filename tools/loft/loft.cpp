@@ -26,15 +26,10 @@ void check_degree(const char* option, int degree) {
   throw DesignError(fmt::format("{} {}: give a degree from 1 to {}", option, degree, kMaxDegree));
 }
 
-/// Internal knots along a section.
-std::vector<double> section_knots(const BladeSections& sections, const LoftSettings& settings) {
-  if (settings.knots.empty()) {
-    const int count = settings.control_points.value_or(default_control_points(sections, settings.degree));
-    if (count > settings.degree) return uniform_knots(count - settings.degree - 1);
-    throw DesignError(fmt::format("--control-points {}: a curve of degree {} has at least {}", count, settings.degree,
-                                  settings.degree + 1));
+void check_knots(const LoftSettings& settings) {
+  if (settings.control_points && !settings.knots.empty()) {
+    throw DesignError("--control-points and --knots: give one of them, not both");
   }
-  if (settings.control_points) throw DesignError("--control-points and --knots: give one of them, not both");
   double before = 0;
   for (const double knot : settings.knots) {
     if (!(knot > 0 && knot < 1 && knot >= before)) {
@@ -42,7 +37,15 @@ std::vector<double> section_knots(const BladeSections& sections, const LoftSetti
     }
     before = knot;
   }
-  return settings.knots;
+}
+
+/// Control points along a section.
+int control_point_count(const BladeSections& sections, const LoftSettings& settings) {
+  if (!settings.knots.empty()) return settings.degree + 1 + static_cast<int>(settings.knots.size());
+  const int count = settings.control_points.value_or(default_control_points(sections, settings.degree));
+  if (count > settings.degree) return count;
+  throw DesignError(fmt::format("--control-points {}: a curve of degree {} has at least {}", count, settings.degree,
+                                settings.degree + 1));
 }
 
 void check_counts(const BladeSections& sections, const LoftSettings& settings, int control_points) {
@@ -56,8 +59,8 @@ void check_counts(const BladeSections& sections, const LoftSettings& settings, i
   for (const BladeSection& section : sections.sections) {
     if (section.points.size() >= static_cast<std::size_t>(control_points)) continue;
     throw DesignError(
-        fmt::format("{}:{}: section {} has {} points, too few for {} control points; add points or lower "
-                    "--control-points",
+        fmt::format("{}:{}: section {} has {} points, too few for {} control points; add points or take "
+                    "fewer control points",
                     sections.file, section.lines.back(), section.name, section.points.size(), control_points));
   }
 }
@@ -106,8 +109,11 @@ NurbsSurface loft(const BladeSections& sections, const LoftSettings& settings, d
   check_degree("--span-degree", settings.span_degree);
   NurbsSurface surface;
   surface.name = "lofted surface";
-  surface.v = clamped_direction(settings.degree, section_knots(sections, settings));
-  check_counts(sections, settings, surface.v.control_points);
+  check_knots(settings);
+  const int count = control_point_count(sections, settings);
+  check_counts(sections, settings, count);
+  surface.v = clamped_direction(settings.degree,
+                                settings.knots.empty() ? uniform_knots(count - settings.degree - 1) : settings.knots);
   const int span_knots = static_cast<int>(sections.sections.size()) - settings.span_degree - 1;
   surface.u = clamped_direction(settings.span_degree, uniform_knots(span_knots));
   std::vector<std::vector<ExtendedPoint>> curves;
