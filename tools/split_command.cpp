@@ -176,6 +176,7 @@ void run_split(const SplitFlags& flags) {
   const std::vector<PatchWindow> parts = parts_of(parse_cuts(flags.cuts, design.surfaces.size()));
   const std::vector<PatchWindow> windows = inside_buffer(parts, flags.buffer);
   std::vector<NurbsSurface> surfaces;
+  surfaces.reserve(parts.size());
   for (const PatchWindow& part : parts) surfaces.push_back(part_of(design.surfaces[part.patch], part.limits));
   if (flags.subset.empty()) {
     write_iges_design(flags.output, surfaces, design.unit);
