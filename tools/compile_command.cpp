@@ -10,13 +10,12 @@
 
 #include "tools/design/c_array.hpp"
 #include "tools/design/design_file.hpp"
+#include "tools/design/length_unit.hpp"
 #include "tools/design/output_file.hpp"
 #include "tools/design_notes.hpp"
 
 namespace bladefit {
 namespace {
-
-constexpr double kMillimetresPerInch = 25.4;
 
 struct CompileOptions {
   std::string design, output, c_array;
@@ -48,15 +47,10 @@ std::string_view as_text(const std::vector<std::byte>& bytes) {
 
 /// An output must overwrite neither the design nor another output.
 void check_outputs(const CompileOptions& options) {
-  const auto same = [](const std::string& a, const std::string& b) {
-    std::error_code error;
-    return !a.empty() && !b.empty() &&
-           std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
-  };
-  if (same(options.design, options.output) || same(options.design, options.c_array)) {
+  if (same_file(options.design, options.output) || same_file(options.design, options.c_array)) {
     throw DesignError(fmt::format("{}: the output would overwrite the design; give another name", options.design));
   }
-  if (same(options.output, options.c_array)) {
+  if (same_file(options.output, options.c_array)) {
     throw DesignError(fmt::format("{}: is both -o and --c-array; give two names", options.output));
   }
 }
@@ -81,12 +75,12 @@ void print_patches(const DesignImage& image) {
 }
 
 void print_box(const ImageHeader& header) {
-  const bool inch = header.design_unit == static_cast<std::uint32_t>(DesignUnit::inch);
-  const double unit = inch ? kMillimetresPerInch : 1.0;
-  fmt::print("  unit of the design: {}\n", inch ? "inch" : "mm");
+  const auto shown = static_cast<DesignUnit>(header.design_unit);
+  const double unit = mm_per_unit(shown);
+  fmt::print("  unit of the design: {}\n", shown == DesignUnit::inch ? "inch" : "mm");
   for (int axis = 0; axis < 3; ++axis) {
     fmt::print("  {} {} {:.4f} to {:.4f} {}\n", axis == 0 ? "box:" : "    ", "xyz"[axis], header.box_min[axis] / unit,
-               header.box_max[axis] / unit, inch ? "in" : "mm");
+               header.box_max[axis] / unit, unit_name(shown));
   }
 }
 

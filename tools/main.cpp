@@ -5,10 +5,13 @@
 
 #include "tools/compile_command.hpp"
 #include "tools/localize_command.hpp"
+#include "tools/loft_command.hpp"
 #include "tools/panel_command.hpp"
 #include "tools/report_command.hpp"
 #include "tools/run_command.hpp"
+#include "tools/sample_command.hpp"
 #include "tools/simulate_command.hpp"
+#include "tools/split_command.hpp"
 
 namespace {
 
@@ -26,6 +29,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kFooter);
   int exit_code = 0;
+  bladefit::add_loft_command(app, exit_code);
+  bladefit::add_split_command(app, exit_code);
+  bladefit::add_sample_command(app, exit_code);
   bladefit::add_compile_command(app, exit_code);
   bladefit::add_localize_command(app, exit_code);
   bladefit::add_simulate_command(app, exit_code);

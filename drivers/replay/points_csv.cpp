@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "drivers/csv_text.hpp"
 #include "drivers/direction.hpp"
 #include "drivers/read_file.hpp"
 #include "drivers/text_number.hpp"
@@ -16,50 +17,18 @@ namespace {
 constexpr std::array<std::string_view, 7> kColumns = {"x", "y", "z", "i", "j", "k", "path"};
 constexpr std::size_t kPathColumn = 6;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 30U;
-constexpr std::size_t kQuotedCharacters = 40;
 constexpr std::string_view kHeaderMend = "the first line must name the columns: x,y,z[,i,j,k][,path]";
-
-/// Where an error is, and how to say so.
-struct Place {
-  std::string_view name;
-  std::size_t line = 0;
-
-  [[nodiscard]] std::string say(std::string_view what) const { return fmt::format("{}:{}: {}", name, line, what); }
-};
 
 /// Column of the file -> index in kColumns.
 using Header = std::vector<std::size_t>;
 
-std::string quoted(std::string_view text) {
-  return fmt::format("'{}{}'", text.substr(0, kQuotedCharacters), text.size() > kQuotedCharacters ? "..." : "");
-}
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-std::string unknown_column(const Place& place, std::string_view cell, std::string_view line) {
-  if (line.find(';') != std::string_view::npos) {
-    return place.say(fmt::format("the columns are separated by ';'; separate them by ','"));
-  }
-  if (parse_finite(cell))
-    return place.say(fmt::format("a number, {}, stands where a column's name should; {}", quoted(cell), kHeaderMend));
-  return place.say(fmt::format("unknown column {}; {}", quoted(cell), kHeaderMend));
-}
-
 /// Reads the line of column names. Returns the error, empty = none.
-std::string parse_header(const Place& place, std::string_view line, Header& header) {
+std::string parse_header(const CsvPlace& place, std::string_view line, Header& header) {
   std::array<bool, kColumns.size()> seen{};
   for (const std::string_view cell : cells_of(line)) {
     std::size_t column = 0;
     while (column < kColumns.size() && kColumns[column] != cell) ++column;
-    if (column == kColumns.size()) return unknown_column(place, cell, line);
+    if (column == kColumns.size()) return unknown_column(place, cell, line, kHeaderMend);
     if (seen[column]) return place.say(fmt::format("column {} is named twice; {}", quoted(cell), kHeaderMend));
     seen[column] = true;
     header.push_back(column);
@@ -73,14 +42,14 @@ std::string parse_header(const Place& place, std::string_view line, Header& head
   return {};
 }
 
-std::string parse_path(const Place& place, std::string_view cell, ProbePoint& point) {
+std::string parse_path(const CsvPlace& place, std::string_view cell, ProbePoint& point) {
   const std::optional<std::uint16_t> path = parse_whole<std::uint16_t>(cell);
   if (!path) return place.say(fmt::format("column path: {} is not a whole number 0..65535", quoted(cell)));
   point.path = *path;
   return {};
 }
 
-std::string parse_coordinate(const Place& place, std::string_view cell, std::size_t column, double mm_per_unit,
+std::string parse_coordinate(const CsvPlace& place, std::string_view cell, std::size_t column, double mm_per_unit,
                              ProbePoint& point) {
   const std::optional<double> value = parse_finite(cell);
   const std::string_view name = kColumns[column];
@@ -96,7 +65,7 @@ std::string parse_coordinate(const Place& place, std::string_view cell, std::siz
 }
 
 /// Reads one line of numbers. Returns the error, empty = none.
-std::string parse_point(const Place& place, std::string_view line, const Header& header, double mm_per_unit,
+std::string parse_point(const CsvPlace& place, std::string_view line, const Header& header, double mm_per_unit,
                         ProbePoint& point) {
   const std::vector<std::string_view> cells = cells_of(line);
   if (cells.size() != header.size()) {
@@ -115,25 +84,6 @@ std::string parse_point(const Place& place, std::string_view line, const Header&
       length));
 }
 
-/// Number of the line with the first byte that no text file has; 0 = none.
-std::size_t binary_line(std::string_view text) {
-  std::size_t line = 1;
-  for (const char character : text) {
-    const auto byte = static_cast<unsigned char>(character);
-    if (byte < 0x20 && character != '\n' && character != '\r' && character != '\t') return line;
-    if (character == '\n') ++line;
-  }
-  return 0;
-}
-
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return trimmed(line);
-}
-
 PointsFile failed(std::string error) {
   PointsFile file;
   file.error = std::move(error);
@@ -143,15 +93,14 @@ PointsFile failed(std::string error) {
 }  // namespace
 
 PointsFile parse_points_csv(std::string_view text, std::string_view name, double mm_per_unit) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  skip_byte_order_mark(text);
   if (const std::size_t line = binary_line(text); line != 0) {
     return failed(
-        Place{name, line}.say("a control character: this is no CSV text file; give a file with the columns x,y,z"));
+        CsvPlace{name, line}.say("a control character: this is no CSV text file; give a file with the columns x,y,z"));
   }
   PointsFile file;
   Header header;
-  for (Place place{name, 1}; !text.empty(); ++place.line) {
+  for (CsvPlace place{name, 1}; !text.empty(); ++place.line) {
     const std::string_view line = take_line(text);
     if (line.empty() || line.front() == '#') continue;
     if (header.empty()) {

@@ -2,37 +2,16 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <sstream>
 #include <tuple>
 
+#include "tests/golden/command_fixture.hpp"
 #include "tests/golden/reference_case.hpp"
 
 namespace bladefit::testing {
 namespace {
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  ///< standard output and error
-};
-
-Outcome run(const std::vector<std::string>& arguments) {
-  std::string line;
-  for (const std::string& argument : arguments) line += "'" + argument + "' ";
-  FILE* pipe = popen((line + "2>&1").c_str(), "r");
-  Outcome outcome;
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    outcome.output.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
 
 /// `number` box limits as the command line takes them; only the direction that does not span the patch is named.
 std::string leading_edge_option(const ReferenceCase::Box& box) {
@@ -41,19 +20,8 @@ std::string leading_edge_option(const ReferenceCase::Box& box) {
   return fmt::format("{}:{}:{}:{}", box.patch, along_u ? 'u' : 'v', limits[0], limits[1]);
 }
 
-class GoldenCase : public ::testing::Test {
+class GoldenCase : public CommandTest {
  protected:
-  GoldenCase() {
-    std::string name = (std::filesystem::temp_directory_path() / "bladefit_golden_XXXXXX").string();
-    scratch_ = ::mkdtemp(name.data());
-  }
-  ~GoldenCase() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(scratch_, ignored);
-  }
-
-  [[nodiscard]] std::string scratch(const std::string& name) const { return scratch_ / name; }
-
   /// The options that case.json asks for, lengths in `unit`.
   static std::vector<std::string> fit_options(const ReferenceCase& c, const std::string& unit) {
     const double length = unit == c.unit ? 1.0 : c.mm_per_unit == 1.0 ? 1.0 / 25.4 : 25.4;
@@ -87,9 +55,6 @@ class GoldenCase : public ::testing::Test {
   }
 
   static std::string sign_text(const ReferenceCase& c) { return c.normal_sign > 0 ? "+" : "-"; }
-
- private:
-  std::filesystem::path scratch_;
 };
 
 class GoldenDesign : public GoldenCase, public ::testing::WithParamInterface<std::tuple<std::string, std::string>> {};

@@ -46,7 +46,7 @@ std::string good_iges() { return iges_file({iges_surface(kGood)}); }
 
 /// The good file with something else in the parameters of its surface.
 std::string iges_with(const std::string& from, const std::string& to) {
-  testing::IgesEntity entity = iges_surface(kGood);
+  IgesOutputEntity entity = iges_surface(kGood);
   entity.parameters = replaced(entity.parameters, from, to);
   return iges_file({entity});
 }
@@ -135,7 +135,7 @@ TEST(DesignBadInput, NotANumber) {
 
 TEST(DesignBadInput, NoSurface) {
   const std::string message =
-      message_of("a.igs", iges_file({{110, "110,0.,0.,0.,1.,1.,1."}, {110, "110,0.,0.,0.,1.,1.,2."}}));
+      message_of("a.igs", iges_file({{110, "110,0.,0.,0.,1.,1.,1.", 0, ""}, {110, "110,0.,0.,0.,1.,1.,2.", 0, ""}}));
   expect_message(message, "no B-spline surface (entity 128)");
   expect_message(message, "2 x 110");
   expect_message(message_of("a.stp", step_file("#100=CARTESIAN_POINT('',(0.,0.,0.));\n")),
@@ -175,7 +175,8 @@ TEST(DesignBadInput, DamagedStepEntities) {
 }
 
 TEST(DesignBadInput, AssembliesAreRefused) {
-  expect_message(message_of("a.igs", iges_file({iges_surface(kGood), {408, "408,1,0.,0.,0.,1."}})), "entity 408");
+  expect_message(message_of("a.igs", iges_file({iges_surface(kGood), {408, "408,1,0.,0.,0.,1.", 0, ""}})),
+                 "entity 408");
 }
 
 TEST(DesignBadInput, ForeignFiles) {

@@ -1,20 +1,20 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "tests/unit/design_fixtures.hpp"
+#include "tools/design/iges_writer.hpp"
 #include "tools/design/nurbs_surface.hpp"
 
 namespace bladefit::testing {
 
-/// A number that reads back as the same double, with the decimal point that IGES and STEP ask for.
+/// A number that reads back as the same double, with the decimal point that STEP asks for.
 inline std::string real_text(double value) {
-  std::string text = fmt::format("{:.17g}", value);
-  const std::size_t exponent = text.find('e');
-  if (text.find('.') == std::string::npos) text.insert(exponent == std::string::npos ? text.size() : exponent, ".");
-  if (const std::size_t e = text.find('e'); e != std::string::npos) text[e] = 'E';
+  std::string text = iges_real(value);
+  std::replace(text.begin(), text.end(), 'D', 'E');
   return text;
 }
 
@@ -25,67 +25,18 @@ std::string joined(const Values& values, Text text) {
   return list;
 }
 
-/// One IGES entity: its type, its parameters without end mark, and the directory number of its matrix or 0.
-struct IgesEntity {
-  int type;
-  std::string parameters;
-  int matrix = 0;
-};
-
 /// Entity 128 with the numbers of `surface` as they are.
-inline IgesEntity iges_surface(const NurbsSurface& surface, int matrix = 0) {
-  std::string text = fmt::format("128,{},{},{},{},0,0,0,0,0", surface.u.control_points - 1,
-                                 surface.v.control_points - 1, surface.u.degree, surface.v.degree);
-  const auto append = [&](double value) { text += "," + real_text(value); };
-  for (const double knot : surface.u.knots) append(knot);
-  for (const double knot : surface.v.knots) append(knot);
-  const auto count_v = static_cast<std::size_t>(surface.v.control_points);
-  const auto count_u = static_cast<std::size_t>(surface.u.control_points);
-  for (std::size_t j = 0; j < count_v; ++j) {  // the first index varies fastest
-    for (std::size_t i = 0; i < count_u; ++i) append(surface.weights[i * count_v + j]);
-  }
-  for (std::size_t j = 0; j < count_v; ++j) {
-    for (std::size_t i = 0; i < count_u; ++i) {
-      for (int axis = 0; axis < 3; ++axis) append(surface.control_points[i * count_v + j][axis]);
-    }
-  }
-  for (const double end : {surface.u.start, surface.u.end, surface.v.start, surface.v.end}) append(end);
-  return {128, text, matrix};
+inline IgesOutputEntity iges_surface(const NurbsSurface& surface, int matrix = 0) {
+  return {128, iges_surface_parameters(surface), matrix, ""};
 }
 
 /// A whole IGES file; `units` are fields 14 and 15 of the global section, `scale` is field 13.
-inline std::string iges_file(const std::vector<IgesEntity>& entities, const std::string& units = "2,2HMM",
+inline std::string iges_file(const std::vector<IgesOutputEntity>& entities, const std::string& units = "2,2HMM",
                              const std::string& scale = "1.0") {
-  const auto record = [](const std::string& text, char section, int number) {
-    return fmt::format("{:<72}{}{:>7}\n", text, section, number);
-  };
-  const std::string global = "1H,,1H;,4Htest,8Htest.igs,8Hbladefit,3H1.0,32,38,6,308,15,4Htest," + scale + "," + units +
-                             ",1,0.01,15H20240101.000000,1.0E-06,100.0,4Htest,4Htest,11,0,15H20240101.000000;";
-  std::string file = record("made up", 'S', 1);
-  int globals = 0;
-  for (std::size_t k = 0; k < global.size(); k += 72) file += record(global.substr(k, 72), 'G', ++globals);
-  std::string directory;
-  std::string parameters;
-  int entries = 0;
-  int lines = 0;
-  for (const IgesEntity& entity : entities) {
-    const int first = lines + 1;
-    std::string text = entity.parameters + ";";
-    while (!text.empty()) {  // a number is not broken over two records
-      std::size_t length = text.size() <= 64 ? text.size() : text.rfind(',', 63) + 1;
-      parameters += record(fmt::format("{:<64}{:>8}", text.substr(0, length), entries + 1), 'P', ++lines);
-      text.erase(0, length);
-    }
-    directory += record(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", entity.type, first, 0, 1, 0, 0,
-                                    entity.matrix, 0, "00000000"),
-                        'D', entries + 1);
-    directory +=
-        record(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>24}{:>8}", entity.type, 0, 0, lines - first + 1, 0, "", 0), 'D',
-               entries + 2);
-    entries += 2;
-  }
-  return file + directory + parameters +
-         record(fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}", 1, globals, entries, lines), 'T', 1);
+  IgesOutputHeader header;
+  header.units = units;
+  header.scale = scale;
+  return iges_file_text(header, entities);
 }
 
 /// How a STEP surface says its knots.

@@ -141,7 +141,7 @@ TEST(DesignFiles, IgesTransformationMatrixMovesTheSurface) {
   const TemporaryFolder folder;
   const std::string matrix = "124,0.,-1.,0.,5.,1.,0.,0.,6.,0.,0.,1.,7.";
   const NurbsSurface moved =
-      read_single(folder, "a.igs", iges_file({{124, matrix}, iges_surface(surface, 1)}, "1,2HIN"));
+      read_single(folder, "a.igs", iges_file({{124, matrix, 0, ""}, iges_surface(surface, 1)}, "1,2HIN"));
   for (std::size_t k = 0; k < surface.control_points.size(); ++k) {
     const Eigen::Vector3d& point = surface.control_points[k];
     const Eigen::Vector3d expected(5 - point.y(), 6 + point.x(), 7 + point.z());

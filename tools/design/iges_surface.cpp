@@ -32,17 +32,6 @@ void read_knots(Cursor& cursor, SurfaceDirection& direction) {
   for (double& knot : direction.knots) knot = cursor.next();
 }
 
-/// Calls `place(k)` for each control point number k of `surface` in the order of IGES, where the first index is the
-/// fastest.
-template <class Place>
-void in_file_order(const NurbsSurface& surface, Place place) {
-  const auto count_u = static_cast<std::size_t>(surface.u.control_points);
-  const auto count_v = static_cast<std::size_t>(surface.v.control_points);
-  for (std::size_t j = 0; j < count_v; ++j) {
-    for (std::size_t i = 0; i < count_u; ++i) place(i * count_v + j);
-  }
-}
-
 }  // namespace
 
 NurbsSurface read_iges_surface(const IgesParameters& parameters) {
@@ -66,8 +55,8 @@ NurbsSurface read_iges_surface(const IgesParameters& parameters) {
   Cursor cursor(parameters, kHeadFields);
   read_knots(cursor, surface.u);
   read_knots(cursor, surface.v);
-  in_file_order(surface, [&](std::size_t k) { surface.weights[k] = cursor.next(); });
-  in_file_order(surface, [&](std::size_t k) {
+  iges_order(surface, [&](std::size_t k) { surface.weights[k] = cursor.next(); });
+  iges_order(surface, [&](std::size_t k) {
     for (double& coordinate : surface.control_points[k]) coordinate = cursor.next();
   });
   surface.u.start = cursor.next();

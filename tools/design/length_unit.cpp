@@ -9,6 +9,10 @@ constexpr double kMillimetresPerInch = 25.4;
 
 }  // namespace
 
+double mm_per_unit(DesignUnit unit) { return unit == DesignUnit::inch ? kMillimetresPerInch : 1.0; }
+
+const char* unit_name(DesignUnit unit) { return unit == DesignUnit::inch ? "in" : "mm"; }
+
 DesignUnit shown_unit(const LengthUnit& unit) {
   return unit.mm == kMillimetresPerInch ? DesignUnit::inch : DesignUnit::mm;
 }

@@ -11,6 +11,12 @@ struct LengthUnit {
   std::string name;  ///< "millimetre", "inch", ...
 };
 
+/// Length of one of the two units of the house [mm].
+double mm_per_unit(DesignUnit unit);
+
+/// "mm" or "in".
+const char* unit_name(DesignUnit unit);
+
 /// In which of the two units of the house lengths of a file in `unit` are shown: inch for inch, mm for all others.
 DesignUnit shown_unit(const LengthUnit& unit);
 

@@ -22,4 +22,7 @@ class OutputFile {
   std::filesystem::path path_, temporary_;
 };
 
+/// True where both name the same place, whether something stands there or not. Empty names are no place.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 }  // namespace bladefit
