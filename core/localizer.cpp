@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kAlignment = 64;
 /// A pose does not move further than this in one push [half diagonals]: what lies beyond is no small motion.
 constexpr double kLongestStep = 0.05;
+/// Points farther from the middle of the design than this [half diagonals] are not of this blade.
+constexpr double kFarthest = 1e3;
 /// Start poses are assumed right to within this [half diagonals] when a direction is not determined yet.
 constexpr double kStartUncertainty = 0.01;
 /// A verdict is pending while what is not determined may change the distance by more than this share of the tolerance.
@@ -54,14 +56,17 @@ bool config_valid(const LocalizerConfig& c, std::size_t patches) {
   const bool lengths = std::isfinite(c.probe_radius_mm) && c.probe_radius_mm >= 0.0 && c.noise_floor_mm > 0.0 &&
                        std::isfinite(c.noise_floor_mm) && c.determined_mm >= 0.0;
   const bool window = c.window_low >= 0.0 && c.window_low < c.window_high && c.window_high <= 1.0;
-  return sizes && lengths && window && pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
+  const bool modes = std::isfinite(c.ratio) && c.ratio >= 1.0 &&
+                     (c.mode != FitMode::constrained || std::isfinite(c.tolerance.rest_mm));
+  return sizes && lengths && window && modes && pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
 }
 
 }  // namespace
 
 std::size_t Localizer::memory_required(const LocalizerConfig& config) {
+  const std::size_t rows = config.mode == FitMode::least_squares ? 0 : BoundedFit::kDoublesPerPoint;
   return rounded_up(sizeof(Localizer)) + rounded_up(sizeof(StoredPoint) * config.capacity) +
-         rounded_up(sizeof(std::uint32_t) * config.capacity);
+         rounded_up(sizeof(std::uint32_t) * config.capacity) + rounded_up(sizeof(double) * rows * config.capacity);
 }
 
 Localizer::Localizer(const DesignImage& design, const LocalizerConfig& config) : surface_(design), config_(config) {
@@ -86,6 +91,12 @@ Status Localizer::create(std::span<std::byte> memory, const DesignImage& design,
   place += rounded_up(sizeof(StoredPoint) * config.capacity);
   made->queue_ = reinterpret_cast<std::uint32_t*>(place);
   for (std::uint32_t k = 0; k < config.capacity; ++k) new (&made->queue_[k]) std::uint32_t(0);
+  place += rounded_up(sizeof(std::uint32_t) * config.capacity);
+  if (config.mode != FitMode::least_squares) {
+    auto* rows = reinterpret_cast<double*>(place);
+    for (std::size_t k = 0; k < BoundedFit::kDoublesPerPoint * config.capacity; ++k) new (&rows[k]) double(0);
+    made->bounded_.attach(rows, config.capacity);
+  }
   made->reset();
   localizer = made;
   return Status::ok;
@@ -99,7 +110,10 @@ void Localizer::reset() {
   determination_.free_directions = Mat6::Identity();
   refinement_ = Refinement();
   sigma_ = config_.noise_floor_mm;
-  concluded_ = converged_ = has_last_ = false;
+  concluded_ = converged_ = has_last_ = regions_held_ = infeasible_ = false;
+  tolerance_factor_ = stationarity_ = 0;
+  certificate_ = Certificate();
+  unproven_ = 0;
   revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
   judged_out_[0] = judged_out_[1] = 0;
   stored_ = fresh_count_ = active_count_ = cursor_ = queue_head_ = queue_size_ = 0;
@@ -113,6 +127,8 @@ void Localizer::reset() {
 Status Localizer::check(const ProbePoint& point) const {
   if (!finite(point.position) || !finite(point.approach)) return Status::not_finite;
   const double length = to_vec3(point.approach).norm();
+  const double off = (apply(config_.start, to_vec3(point.position)) - frame_.pivot).norm();
+  if (off > kFarthest * frame_.length) return Status::out_of_range;
   if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > 1e-3)) return Status::out_of_range;
   return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
 }
@@ -134,6 +150,7 @@ Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& 
     m.projection = global.nearest;
     m.searched = true;
     m.lead = global.lead;
+    m.proven = global.proven;
   }
   m.foot = foot_of(surface_, m.projection, config_.probe_radius_mm);
   return m;
@@ -165,7 +182,7 @@ bool Localizer::left_out(const StoredPoint& point, const Foot& foot) const {
 
 Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   if (const Status status = check(point); status != Status::ok) return status;
-  refinement_.active = concluded_ = converged_ = false;
+  refinement_.active = concluded_ = converged_ = regions_held_ = infeasible_ = false;
   Measurement measurement;
   StoredPoint passing = admitted(point, measurement);
   StoredPoint* place = store(passing, measurement);
@@ -189,7 +206,7 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
 Status Localizer::stage(const ProbePoint& point) {
   if (const Status status = check(point); status != Status::ok) return status;
   if (stored_ == config_.capacity) return Status::out_of_range;
-  refinement_.active = converged_ = false;
+  refinement_.active = converged_ = regions_held_ = infeasible_ = false;
   redetermine_ = true;
   Measurement measurement;
   const StoredPoint passing = admitted(point, measurement);
@@ -241,8 +258,10 @@ void Localizer::count_verdict(const StoredPoint& point, int sign) {
 void Localizer::judge(StoredPoint& point) {
   if (point.tolerance != 0.0) count_verdict(point, -1);
   const Foot& foot = point.foot;
-  point.region = region_at(config_.tolerance, foot.patch, foot.u, foot.v);
-  point.tolerance = tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
+  if (!regions_held_) {
+    point.region = region_at(config_.tolerance, foot.patch, foot.u, foot.v);
+    point.tolerance = tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
+  }
   Vec6 gradient;
   gradient.head<3>() = (apply(pose_, point.position) - frame_.pivot).cross(foot.normal) / frame_.length;
   gradient.tail<3>() = foot.normal;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/fit/bounded_fit.hpp"
 #include "core/fit/pose.hpp"
 #include "core/fit/pose_solver.hpp"
 #include "core/fit/stored_point.hpp"
@@ -16,6 +17,8 @@
 namespace bladefit {
 
 enum class EdgePolicy : std::uint8_t { skip = 0, use = 1 };
+/// Which foot says to which region a point belongs in the modes beside least squares.
+enum class RegionPolicy : std::uint8_t { follow = 0, fixed = 1 };  ///< the present one; that of the least-squares fit
 
 struct LocalizerConfig {
   std::uint32_t capacity = 65536;       ///< points that keep a place; later ones are judged and counted only
@@ -30,6 +33,10 @@ struct LocalizerConfig {
   double window_low = 0;          ///< points whose foot at the start pose has u or v below this are rejected
   double window_high = 1;         ///< or above this (thesis 7: 0.05 and 0.95)
   ToleranceMap tolerance;
+  /// While points come in the pose is that of least squares; refine() goes on to the optimum of the mode from there.
+  FitMode mode = FitMode::least_squares;
+  double ratio = 10;  ///< min_tolerance: tolerance elsewhere / that at the leading edge
+  RegionPolicy regions = RegionPolicy::follow;
 };
 
 enum class FitStatus : std::uint8_t { underdetermined = 0, tracking = 1, converged = 2, infeasible = 3 };
@@ -57,6 +64,14 @@ struct FitReport {
   double smallest_eigenvalue = 0;  ///< of the scaled information matrix per point (dimensionless)
   double gradient = 0;             ///< size of the last Newton step [mm at the design's half diagonal]: the self check
   RegionReport leading_edge, rest;
+  /// Optimum of the mode: minimax max |d|, range max d - min d, min_tolerance the smallest leading-edge tolerance;
+  /// where constrained is infeasible, the smallest leading-edge tolerance that is not, the ratio kept [mm]. 0 until
+  /// known.
+  double tolerance_factor_mm = 0;
+  Certificate certificate;  ///< of that optimum; no points in least squares, range and a feasible constrained fit
+  double stationarity = 0;  ///< of its Karush-Kuhn-Tucker conditions, relative: the self check of the mode
+  std::uint32_t unproven =
+      0;  ///< feet whose search met its cap in the last sweep of refine(): then it is not converged
   std::uint32_t revision = 0;  ///< +1 whenever the pose moves
   bool memory_full = false;
 };
@@ -114,12 +129,15 @@ class Localizer {
     bool searched = false;  ///< the foot is the outcome of a global search
     double lead = 0;        ///< of that search [mm]
     bool changed = false;   ///< it found another local minimum than the one tracked
+    bool proven = true;     ///< false: the search met its cap
   };
   struct Refinement {
     bool active = false;
     bool thorough = false;  ///< every foot of this sweep is searched globally
-    std::uint32_t sweeps = 0, changed = 0;
-    double last_value = 0;  ///< sum 1/2 d^2 of the sweep before
+    bool bounded = false;   ///< beyond least squares: bounded_ moves the pose
+    std::uint32_t sweeps = 0, changed = 0, unproven = 0;
+    std::uint32_t rounds = 0;  ///< in which regions followed the feet
+    double last_value = 0;     ///< sum 1/2 d^2 of the sweep before
     std::uint32_t last_count = 0;
     Pose last_pose;
     Vec6 last_step = Vec6::Zero();
@@ -149,6 +167,12 @@ class Localizer {
   double solve();
   [[nodiscard]] bool finish_refine_sweep(Status& status);
   [[nodiscard]] bool retreat();
+  [[nodiscard]] Status least_squares_step();
+  void begin_bounded(FitMode mode);
+  [[nodiscard]] Status bounded_step();
+  [[nodiscard]] Status bounded_optimum();
+  [[nodiscard]] double assign_regions();
+  void include_row(std::uint32_t index, const Measurement& measurement);
   [[nodiscard]] double threshold() const;
   [[nodiscard]] Verdict verdict_from(const StoredPoint& point) const;
   void queue_revision(std::uint32_t index);
@@ -167,6 +191,12 @@ class Localizer {
   double sigma_ = 0;
   bool concluded_ = false, converged_ = false, redetermine_ = true;
   Refinement refinement_;
+  BoundedFit bounded_;
+  bool regions_held_ = false;  ///< points keep region and tolerance whatever their feet
+  bool infeasible_ = false;
+  double tolerance_factor_ = 0, stationarity_ = 0;
+  Certificate certificate_;
+  std::uint32_t unproven_ = 0;
   double last_step_ = 0;
   std::uint32_t revision_ = 0, accepted_ = 0, rejected_ = 0, last_sequence_ = 0, last_path_ = 0;
   std::uint32_t judged_out_[2] = {0, 0};

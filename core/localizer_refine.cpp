@@ -32,25 +32,34 @@ bool Localizer::retreat() {
   return true;
 }
 
+/// The least-squares step at the end of a sweep. ok or underdetermined: this pose is the optimum.
+Status Localizer::least_squares_step() {
+  Refinement& r = refinement_;
+  if (retreat()) return Status::more_work;
+  r.last_value = current_.model.half_square;
+  r.last_count = current_.model.count;
+  r.last_pose = pose_;
+  const double step = solve();
+  r.last_step = motion_between(r.last_pose, pose_, frame_);
+  if (!r.thorough || r.changed > 0 || step > kConvergedBelow * frame_.length) return Status::more_work;
+  if (determination_.rank < 6) return Status::underdetermined;
+  if (config_.mode == FitMode::least_squares) return Status::ok;
+  begin_bounded(config_.mode == FitMode::constrained ? FitMode::min_tolerance : config_.mode);
+  return Status::more_work;
+}
+
 /// Closes a sweep of refine(): moves the pose and decides what comes next. True when the refinement is over.
 bool Localizer::finish_refine_sweep(Status& status) {
   Refinement& r = refinement_;
   settled_ = current_ = filling_;
   redetermine_ = true;
   ++r.sweeps;
-  if (!retreat()) {
-    r.last_value = current_.model.half_square;
-    r.last_count = current_.model.count;
-    r.last_pose = pose_;
-    const double step = solve();
-    r.last_step = motion_between(r.last_pose, pose_, frame_);
-    if (r.thorough && r.changed == 0 && step <= kConvergedBelow * frame_.length) {
-      converged_ = determination_.rank == 6;
-      status = converged_ ? Status::ok : Status::underdetermined;
-    }
-  }
+  status = r.bounded ? bounded_step() : least_squares_step();
+  unproven_ = r.unproven;
+  converged_ = status == Status::ok && unproven_ == 0;
+  if (status == Status::ok && unproven_ > 0) status = Status::iteration_cap;
   r.thorough = r.last_step.norm() <= kCheckedAbove * frame_.length;
-  r.changed = 0;
+  r.changed = r.unproven = 0;
   if (status == Status::more_work && r.sweeps >= kMaxSweeps) status = Status::iteration_cap;
   begin_sweep();
   return status != Status::more_work;
@@ -62,6 +71,7 @@ Status Localizer::refine(std::uint32_t max_points) {
   if (!refinement_.active) {
     refinement_ = Refinement();
     refinement_.active = true;
+    regions_held_ = infeasible_ = false;
     redetermine_ = true;
     settle_all();
     solve();
@@ -72,8 +82,10 @@ Status Localizer::refine(std::uint32_t max_points) {
     if (refinement_.thorough) points_[cursor_].lead = 0.0;
     const Measurement m = measure(points_[cursor_], pose_);
     if (m.changed) ++refinement_.changed;
+    if (!m.proven) ++refinement_.unproven;
     review(cursor_, m);
     include(filling_, points_[cursor_], m, Vec6::Zero());
+    if (refinement_.bounded) include_row(cursor_, m);
     ++cursor_;
     if (cursor_ < stored_) continue;
     if (!finish_refine_sweep(status)) continue;

@@ -84,8 +84,12 @@ FitReport Localizer::fit() const {
   if (model.count > 6) report.sigma_mm = std::sqrt(square / (model.count - 6));
   if (determination_.rank == 6) {
     report.covariance = pose_covariance(report.sigma_mm * report.sigma_mm * covariance_, pose_, frame_);
-    report.status = converged_ ? FitStatus::converged : FitStatus::tracking;
+    report.status = !converged_ ? FitStatus::tracking : infeasible_ ? FitStatus::infeasible : FitStatus::converged;
   }
+  report.tolerance_factor_mm = tolerance_factor_;
+  report.certificate = certificate_;
+  report.stationarity = stationarity_;
+  report.unproven = unproven_;
   report.rest = region_report(current_.regions[0], judged_out_[0]);
   report.leading_edge = region_report(current_.regions[1], judged_out_[1]);
   return report;

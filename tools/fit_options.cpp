@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <tuple>
@@ -53,6 +55,13 @@ void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
     map.rest_mm = ratio * map.leading_edge_mm;
   }
   if (settings.rest_tolerance) map.rest_mm = positive(*settings.rest_tolerance, "--rest-tolerance") * plan.mm_per_unit;
+  plan.localizer.ratio = ratio;
+  if (settings.tolerance && settings.rest_tolerance) {
+    if (map.rest_mm < map.leading_edge_mm)
+      throw DesignError(fmt::format("--rest-tolerance: {} is below --tolerance {}; the rest has the wider tolerance",
+                                    *settings.rest_tolerance, *settings.tolerance));
+    plan.localizer.ratio = map.rest_mm / map.leading_edge_mm;
+  }
   map.transition = settings.transition.value_or(0.0);
   if (!(map.transition >= 0.0) || map.transition > 1.0)
     throw DesignError(fmt::format("--transition: {} is not a width in patch parameters, 0 to 1", map.transition));
@@ -62,16 +71,39 @@ void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
   }
 }
 
+constexpr std::array<std::pair<const char*, FitMode>, 5> kModes{{{"least_squares", FitMode::least_squares},
+                                                                 {"minimax", FitMode::minimax},
+                                                                 {"range", FitMode::range},
+                                                                 {"min_tolerance", FitMode::min_tolerance},
+                                                                 {"constrained", FitMode::constrained}}};
+
 void plan_mode(const FitSettings& settings, FitPlan& plan) {
   plan.mode = settings.mode.value_or("least_squares");
-  if (plan.mode != "least_squares")
-    throw DesignError(fmt::format("--mode {}: this version fits by least_squares only; leave --mode out", plan.mode));
+  const auto mode = std::find_if(kModes.begin(), kModes.end(), [&](const auto& m) { return plan.mode == m.first; });
+  if (mode == kModes.end())
+    throw DesignError(
+        fmt::format("--mode {}: give least_squares, minimax, range, min_tolerance or constrained", plan.mode));
+  plan.localizer.mode = mode->second;
   const std::string regions = settings.regions.value_or("follow");
   if (regions != "follow" && regions != "fixed")
     throw DesignError(fmt::format("--regions {}: give follow or fixed", regions));
+  plan.localizer.regions = regions == "fixed" ? RegionPolicy::fixed : RegionPolicy::follow;
   const std::string edges = settings.edges.value_or("skip");
   if (edges != "skip" && edges != "use") throw DesignError(fmt::format("--edges {}: give skip or use", edges));
   plan.localizer.edges = edges == "use" ? EdgePolicy::use : EdgePolicy::skip;
+}
+
+/// What a mode needs beside its name.
+void check_mode(const FitSettings& settings, const FitPlan& plan) {
+  const ToleranceMap& map = plan.localizer.tolerance;
+  if (plan.localizer.mode == FitMode::constrained && !std::isfinite(map.rest_mm))
+    throw DesignError(
+        "--mode constrained: no tolerance is given; add --tolerance, or use --mode min_tolerance to find "
+        "the smallest one");
+  if (plan.localizer.mode == FitMode::min_tolerance && map.box_count == 0)
+    throw DesignError("--mode min_tolerance: no leading edge is given; add --leading-edge, or use --mode minimax");
+  if (settings.rest_tolerance && settings.ratio)
+    throw DesignError("--ratio: --rest-tolerance is given as well; leave one of them out");
 }
 
 void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan& plan) {
@@ -86,7 +118,9 @@ void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan&
 void add_fit_options(CLI::App& command, FitSettings& flags) {
   const std::string group = "Fit";
   add(command, "--mode", flags.mode,
-      "least_squares: minimum of the sum of squared distances (the only one in this version)")
+      "what the fit minimises: least_squares (default): the sum of squared distances; minimax: the largest distance; "
+      "range: largest less smallest signed distance; min_tolerance: the leading-edge tolerance that can just be met, "
+      "with --ratio times it elsewhere; constrained: the sum of squares with every distance within its tolerance")
       ->group(group);
   add(command, "--leading-edge", flags.leading_edge,
       "[PATCH:]u:0.4:0.6 or v:...: leading-edge region between two isoparameter lines; may be repeated")
@@ -112,8 +146,7 @@ void add_fit_options(CLI::App& command, FitSettings& flags) {
       ->group(group);
   add(command, "--regions", flags.regions,
       "follow (default): a point's region is that of its present foot; fixed: of its foot at the least-squares "
-      "solution. "
-      "In a least-squares fit the two agree")
+      "solution, as in the thesis. In a least-squares fit the two agree")
       ->group(group);
   add(command, "--edges", flags.edges, "skip (default) or use points whose foot is on an edge of the design")
       ->group(group);
@@ -144,6 +177,7 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   plan_units(settings, design, plan);
   plan_boxes(settings, design, plan.localizer.tolerance);
   plan_tolerance(settings, plan);
+  check_mode(settings, plan);
   const double radius = settings.probe_radius.value_or(0.0);
   if (!(radius >= 0.0) || !std::isfinite(radius))
     throw DesignError(fmt::format("--probe-radius: {} is not a radius; give 0 or more", radius));

@@ -18,8 +18,8 @@ void add_fit_options(CLI::App& command, FitSettings& flags);
 
 /// A fit ready to run.
 struct FitPlan {
-  std::string mode = "least_squares";
-  std::string units = "mm";  ///< of lengths on the command line and in results
+  std::string mode = "least_squares";  ///< name of localizer.mode
+  std::string units = "mm";            ///< of lengths on the command line and in results
   double mm_per_unit = 1.0;
   LocalizerConfig localizer;
   std::string note;  ///< a line the user should read; empty = none

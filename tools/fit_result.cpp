@@ -131,6 +131,7 @@ FitResult result_of(const DesignImage& design, const FitPlan& plan, const std::v
 }
 
 int exit_code_of(const FitResult& result) {
+  if (result.report.status == FitStatus::infeasible) return 1;
   const bool out = std::any_of(result.verdicts.begin(), result.verdicts.end(),
                                [](const Verdict& v) { return v.state == PointState::out; });
   return out ? 1 : 0;

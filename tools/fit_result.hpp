@@ -15,7 +15,7 @@ struct BeforeAfter {
 
 /// A finished fit and all its points: what result.json and the operator's summary are made from.
 struct FitResult {
-  std::string status;  ///< converged, underdetermined or not_converged
+  std::string status;  ///< converged, infeasible, underdetermined or not_converged
   FitReport report;
   std::vector<Verdict> verdicts;  ///< final ones, rising sequence; index in the points file = sequence - 1
   BeforeAfter all, leading_edge, rest;
@@ -34,7 +34,7 @@ struct FitResult {
 /// the same bits.
 [[nodiscard]] std::string result_json(const FitResult& result, const FitPlan& plan);
 
-/// Exit code: 1 where a point is out of tolerance, else 0.
+/// Exit code: 1 where a point is out of tolerance or no pose meets the tolerances, else 0.
 [[nodiscard]] int exit_code_of(const FitResult& result);
 
 /// What the operator wants to know, some lines: points, fit, and the points out of tolerance with cut or weld.

@@ -59,6 +59,45 @@ std::string worst_list(const FitResult& result, double tip, const FitPlan& plan)
   return text;
 }
 
+/// "points 12, 81 and 407".
+std::string point_list(const Certificate& certificate) {
+  std::string text = "points ";
+  for (std::uint32_t k = 0; k < certificate.count; ++k) {
+    const char* joint = k == 0 ? "" : k + 1 == certificate.count ? " and " : ", ";
+    text += fmt::format("{}{}", joint, certificate.sequence.at(k));
+  }
+  return text;
+}
+
+/// What the mode found, in words; empty in least squares.
+std::string optimum_line(const FitResult& result, const FitPlan& plan) {
+  const FitReport& report = result.report;
+  const auto length = [&](double mm) { return fmt::format("{:.6g} {}", mm / plan.mm_per_unit, plan.units); };
+  const double factor = report.tolerance_factor_mm;
+  if (factor <= 0.0) return "";
+  const std::string proof = fmt::format("Proof: {} cannot all come nearer (multipliers balance to {:.1e})\n",
+                                        point_list(report.certificate), report.stationarity);
+  switch (plan.localizer.mode) {
+    case FitMode::minimax:
+      return fmt::format("Largest distance: {}, the smallest possible\n", length(factor)) + proof;
+    case FitMode::range:
+      return fmt::format("Range of distances: {}, the smallest possible\n", length(factor));
+    case FitMode::min_tolerance:
+      return fmt::format("Smallest leading-edge tolerance that can be met: {} ({} elsewhere)\n", length(factor),
+                         length(plan.localizer.ratio * factor)) +
+             proof;
+    case FitMode::constrained:
+      return fmt::format(
+          "Infeasible: {} cannot be brought within {} together; the least feasible leading-edge tolerance is {}.\n"
+          "Measure these points again, or widen the tolerance by {}\n",
+          point_list(report.certificate), length(plan.localizer.tolerance.leading_edge_mm), length(factor),
+          length(factor - plan.localizer.tolerance.leading_edge_mm));
+    case FitMode::least_squares:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string operator_summary(const FitResult& result, const FitPlan& plan, const DesignImage& design) {
@@ -71,6 +110,9 @@ std::string operator_summary(const FitResult& result, const FitPlan& plan, const
                       result.all.rms_after / unit, plan.units, result.all.rms_before / unit, plan.units);
   text += fmt::format("Pose: tx {:.5f} ty {:.5f} tz {:.5f} {}; psi {:.7f} theta {:.7f} phi {:.7f} rad\n", t[0], t[1],
                       t[2], plan.units, e.psi, e.theta, e.phi);
+  text += optimum_line(result, plan);
+  if (result.report.unproven > 0)
+    text += fmt::format("{} feet could not be proven the nearest: do not rely on this fit\n", result.report.unproven);
   if (result.leading_edge.count > 0) {
     text +=
         fmt::format("Leading edge: {} points, rms {:.4f} {}, largest {:.4f} {}\n", result.leading_edge.count,

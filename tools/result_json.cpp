@@ -45,8 +45,9 @@ Json pose_json(const Pose& pose, double mm_per_unit) {
           {"euler", {{"psi", e.psi}, {"theta", e.theta}, {"phi", e.phi}}}};
 }
 
-Json covariance_json(const FitReport& report, double mm_per_unit) {
-  if (report.determined < 6 || report.fitted <= 6) return nullptr;
+/// sigma^2 (J'J)^-1 is that of the least-squares pose alone.
+Json covariance_json(const FitReport& report, FitMode mode, double mm_per_unit) {
+  if (mode != FitMode::least_squares || report.determined < 6 || report.fitted <= 6) return nullptr;
   Json rows = Json::array();
   for (int i = 0; i < 6; ++i) {
     Json row = Json::array();
@@ -72,6 +73,17 @@ Json boxes_json(const ToleranceMap& tolerance) {
     boxes.push_back({{"patch", box.patch}, {"u", {box.u_min, box.u_max}}, {"v", {box.v_min, box.v_max}}});
   }
   return boxes;
+}
+
+Json certificate_json(const Certificate& certificate) {
+  if (certificate.count == 0) return nullptr;
+  Json points = Json::array(), multipliers = Json::array(), signs = Json::array();
+  for (std::uint32_t k = 0; k < certificate.count; ++k) {
+    points.push_back(certificate.sequence.at(k) - 1);
+    multipliers.push_back(certificate.multiplier.at(k));
+    signs.push_back(certificate.sign.at(k));
+  }
+  return {{"points", points}, {"multipliers", multipliers}, {"signs", signs}};
 }
 
 Json points_json(const std::vector<Verdict>& verdicts, double mm_per_unit) {
@@ -100,18 +112,21 @@ std::string result_json(const FitResult& result, const FitPlan& plan) {
   json["mode"] = plan.mode;
   json["units"] = plan.units;
   json["pose"] = pose_json(result.report.pose, unit);
-  json["covariance"] = covariance_json(result.report, unit);
+  json["covariance"] = covariance_json(result.report, plan.localizer.mode, unit);
   json["summary"] = {{"count", result.all.count},
                      {"rms_before", result.all.rms_before / unit},
                      {"rms_after", result.all.rms_after / unit},
                      {"max_abs_before", result.all.max_before / unit},
                      {"max_abs_after", result.all.max_after / unit}};
   const ToleranceMap& tolerance = plan.localizer.tolerance;
-  json["regions"] = {{"leading_edge", region_json(result.leading_edge, tolerance.leading_edge_mm, unit)},
-                     {"rest", region_json(result.rest, tolerance.rest_mm, unit)}};
+  const double factor = result.report.tolerance_factor_mm;
+  const bool found = plan.localizer.mode == FitMode::min_tolerance && factor > 0.0;
+  json["regions"] = {
+      {"leading_edge", region_json(result.leading_edge, found ? factor : tolerance.leading_edge_mm, unit)},
+      {"rest", region_json(result.rest, found ? plan.localizer.ratio * factor : tolerance.rest_mm, unit)}};
   json["regions"]["leading_edge"]["boxes"] = boxes_json(tolerance);
-  json["tolerance_factor"] = nullptr;
-  json["certificate"] = nullptr;
+  json["tolerance_factor"] = factor > 0.0 ? Json(factor / unit) : Json(nullptr);
+  json["certificate"] = certificate_json(result.report.certificate);
   json["points"] = points_json(result.verdicts, unit);
   return json.dump(1) + "\n";
 }

@@ -1,0 +1,174 @@
+#include "core/fit/bounded_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fit/cholesky.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Columns of the caller's memory: 0..5 the gradient, then
+constexpr int kLower = 6, kUpper = 7, kWeight = 8;
+/// Steps below this share of the reach are rounding; steps above the second must not raise the merit.
+constexpr double kSettledBelow = 2e-11, kCheckedAbove = 1e-6;
+/// A merit may rise by this share and still count as the same.
+constexpr double kMeritRounding = 1e-12;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double sign_of(const ActiveSet::Entry& entry) { return entry.side == Side::upper ? 1.0 : -1.0; }
+
+}  // namespace
+
+void BoundedFit::attach(double* memory, std::uint32_t capacity) {
+  memory_ = memory;
+  capacity_ = capacity;
+}
+
+void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
+  mode_ = mode;
+  count_ = count;
+  reach_ = reach;
+  active_ = ActiveSet();
+  curvature_.setZero();
+  penalty_ = 0;
+  has_last_ = false;
+}
+
+double BoundedFit::set_weight(std::uint32_t i, double weight) {
+  double& kept = column(kWeight)[i];
+  const double change = std::abs(kept - weight) / weight;
+  kept = weight;
+  return change;
+}
+
+void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
+  for (int k = 0; k < 6; ++k) column(k)[i] = row.gradient[k];
+  const double half = mode_ == FitMode::constrained ? column(kWeight)[i] : 0.0;
+  column(kLower)[i] = -half - row.distance;
+  column(kUpper)[i] = half - row.distance;
+  for (int k = 0; k < active_.count; ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    if (entry.index == static_cast<int>(i)) curvature_ += entry.multiplier * sign_of(entry) * row.bend;
+  }
+}
+
+void BoundedFit::skip_row(std::uint32_t i) {
+  for (int k = 0; k < 6; ++k) column(k)[i] = 0.0;
+  column(kLower)[i] = -kInfinity;
+  column(kUpper)[i] = kInfinity;
+}
+
+/// Of a row that counts; NaN of one that does not.
+double BoundedFit::distance(std::uint32_t i) const { return -0.5 * (column(kLower)[i] + column(kUpper)[i]); }
+
+double BoundedFit::value() const {
+  double most = -kInfinity, least = kInfinity, ratio = 0.0;
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    const double d = distance(i);
+    if (std::isnan(d)) continue;
+    most = std::max(most, d);
+    least = std::min(least, d);
+    ratio = std::max(ratio, std::abs(d) / (mode_ == FitMode::minimax ? 1.0 : column(kWeight)[i]));
+  }
+  return mode_ == FitMode::range ? most - least : ratio;
+}
+
+double BoundedFit::merit(const QuadraticModel& model) const {
+  if (mode_ != FitMode::constrained) return value();
+  double violation = 0.0;
+  for (std::uint32_t i = 0; i < count_; ++i) violation = std::max({violation, column(kLower)[i], -column(kUpper)[i]});
+  return model.half_square + penalty_ * violation;
+}
+
+Constraints BoundedFit::constraints() const {
+  Constraints c;
+  c.variables = 6;
+  c.rows = {memory_,
+            static_cast<std::ptrdiff_t>(capacity_),
+            static_cast<int>(count_),
+            6,
+            column(kLower),
+            column(kUpper),
+            nullptr,
+            -1,
+            -1};
+  c.lower.head<6>().setConstant(-reach_);
+  c.upper.head<6>().setConstant(reach_);
+  return c;
+}
+
+/// min s with |d + J x| <= w s, or min s_high - s_low with s_low <= d + J x <= s_high.
+ActiveSetResult BoundedFit::solve_levels() const {
+  Constraints c = constraints();
+  Vec8 gradient = Vec8::Unit(6);
+  c.variables = 7;
+  c.rows.lower_level = c.rows.upper_level = 6;
+  if (mode_ == FitMode::min_tolerance) c.rows.weight = column(kWeight);
+  if (mode_ == FitMode::range) {
+    c.variables = 8;
+    c.rows.upper_level = 7;
+    gradient[7] = 1.0;
+  }
+  return minimize_linear(gradient, c, Vec8::Zero(), active_);
+}
+
+/// min of the model with the curvature of the active constraints, |d + J x| <= tolerance. Where that is not convex the
+/// Gauss-Newton Hessian takes its place.
+ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
+  Mat8 hessian = Mat8::Identity();
+  Vec8 gradient = Vec8::Zero();
+  gradient.head<6>() = model.gradient;
+  const Mat6 exact = model.gauss + model.bend + curvature_;
+  hessian.topLeftCorner<6, 6>() = Cholesky(exact).positive_definite() ? exact : model.gauss;
+  return minimize_quadratic(hessian, gradient, constraints(), active_);
+}
+
+/// True where the last step raised the merit: a quarter of it, from where it started.
+bool BoundedFit::retreat(double merit, Step& step) {
+  const bool checked = has_last_ && last_step_.norm() > kCheckedAbove * reach_;
+  if (!checked || merit <= last_merit_ * (1.0 + kMeritRounding)) return false;
+  last_step_ *= 0.25;
+  step.x = last_step_;
+  step.from_last = true;
+  return true;
+}
+
+BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
+  Step step;
+  const double present = merit(model);
+  if (retreat(present, step)) {
+    curvature_.setZero();
+    return step;
+  }
+  const ActiveSetResult result = mode_ == FitMode::constrained ? solve_bounds(model) : solve_levels();
+  curvature_.setZero();
+  step.status = result.status;
+  if (!succeeded(result.status)) return step;
+  active_ = result.active;
+  stationarity_ = result.residuals.stationarity;
+  for (int k = 0; k < active_.count; ++k)
+    penalty_ = std::max(penalty_, 10.0 * active_.entries[static_cast<std::size_t>(k)].multiplier);
+  step.x = result.x.head<6>();
+  step.settled = step.x.norm() <= kSettledBelow * reach_;
+  has_last_ = true;
+  last_merit_ = mode_ == FitMode::constrained ? merit(model) : present;
+  last_step_ = step.x;
+  return step;
+}
+
+Certificate BoundedFit::certificate() const {
+  Certificate out;
+  for (int k = 0; k < active_.count && out.count < out.sequence.size(); ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    if (entry.index >= static_cast<int>(count_)) continue;  // the bound of a step
+    out.sequence[out.count] = static_cast<std::uint32_t>(entry.index);
+    out.multiplier[out.count] = entry.multiplier;
+    out.sign[out.count] = entry.side == Side::upper ? 1 : -1;
+    ++out.count;
+  }
+  return out;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,72 @@
+#pragma once
+#include "core/fit/active_set.hpp"
+#include "core/fit/fit_mode.hpp"
+#include "core/fit/quadratic_model.hpp"
+
+namespace bladefit {
+
+/// Fits whose objective or constraints bound single distances, by a sequence of linear or quadratic programs: at each
+/// pose every distance is replaced by its expansion, the program is solved, the pose moves. With as many active points
+/// as unknowns, as is usual, linear programs end quadratically; the constrained optimum does by the exact Hessian of
+/// its Lagrangian. Rows live in the caller's memory.
+class BoundedFit {
+ public:
+  /// Doubles of the caller's memory a point needs: six of its gradient, two bounds, its weight.
+  static constexpr std::size_t kDoublesPerPoint = 9;
+
+  void attach(double* memory, std::uint32_t capacity);
+
+  /// Begins a fit of mode minimax, range, min_tolerance or constrained over `count` points. `reach` [mm]: the pose
+  /// moves no farther in one step.
+  void begin(FitMode mode, std::uint32_t count, double reach);
+  [[nodiscard]] FitMode mode() const { return mode_; }
+
+  /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again.
+  /// Returns how much it changed, relative to the new one.
+  double set_weight(std::uint32_t i, double weight);
+  /// The row of point i at the present pose.
+  void set_row(std::uint32_t i, const DistanceRow& row);
+  /// Point i does not count.
+  void skip_row(std::uint32_t i);
+
+  struct Step {
+    Status status = Status::ok;  ///< of the program; not ok: no step
+    Vec6 x = Vec6::Zero();       ///< from the pose of `from_last` or the present one
+    bool from_last = false;      ///< the last step made things worse: a shorter one from the same pose
+    bool settled = false;        ///< the step is rounding: the present pose is the optimum
+  };
+  /// After all rows were set: the next step. `model`: sum of 1/2 d^2 about the present pose.
+  /// Cost: some ten passes over the rows.
+  [[nodiscard]] Step step(const QuadraticModel& model);
+
+  /// At the present rows: max |d|, max d - min d, max |d| / w, or for constrained max |d| / tolerance.
+  [[nodiscard]] double value() const;
+
+  /// The active points of the last program; `sequence` holds row numbers.
+  [[nodiscard]] Certificate certificate() const;
+  /// Of the last program, at the optimum also of the fit: relative stationarity of the Karush-Kuhn-Tucker conditions.
+  [[nodiscard]] double stationarity() const { return stationarity_; }
+
+ private:
+  [[nodiscard]] bool retreat(double merit, Step& step);
+  [[nodiscard]] Constraints constraints() const;
+  [[nodiscard]] ActiveSetResult solve_levels() const;
+  [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
+  [[nodiscard]] double distance(std::uint32_t i) const;
+  [[nodiscard]] double merit(const QuadraticModel& model) const;
+  [[nodiscard]] double* column(int k) const { return memory_ + static_cast<std::size_t>(k) * capacity_; }
+
+  double* memory_ = nullptr;
+  std::uint32_t capacity_ = 0, count_ = 0;
+  FitMode mode_ = FitMode::minimax;
+  double reach_ = 0;
+  ActiveSet active_;
+  Mat6 curvature_ = Mat6::Zero();  ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points
+  double penalty_ = 0;             ///< of a violated tolerance, above the sum of the multipliers
+  bool has_last_ = false;
+  double last_merit_ = 0;
+  Vec6 last_step_ = Vec6::Zero();
+  double stationarity_ = 0;
+};
+
+}  // namespace bladefit

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/localizer.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Longest step of one program [half diagonals].
+constexpr double kReach = 0.05;
+/// Regions follow the feet this many times at most: then they do not come to rest.
+constexpr std::uint32_t kMaxRounds = 20;
+/// Weights that change by less than this share are at rest.
+constexpr double kAtRest = 1e-10;
+/// A tolerance below the smallest feasible one by no more than this share is met.
+constexpr double kFeasible = 1e-12;
+
+}  // namespace
+
+/// Weights and regions of all points from their present feet. Returns the largest relative change of a weight.
+double Localizer::assign_regions() {
+  ToleranceMap weights = config_.tolerance;
+  weights.leading_edge_mm = 1.0;
+  weights.rest_mm = config_.ratio;
+  double change = 0.0;
+  for (std::uint32_t i = 0; i < stored_; ++i) {
+    StoredPoint& point = points_[i];
+    const Foot& foot = point.foot;
+    if (point.tolerance != 0.0) count_verdict(point, -1);
+    point.region = region_at(config_.tolerance, foot.patch, foot.u, foot.v);
+    point.tolerance = tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
+    count_verdict(point, +1);
+    const double weight =
+        config_.mode == FitMode::constrained ? point.tolerance : tolerance_at(weights, foot.patch, foot.u, foot.v);
+    change = std::max(change, bounded_.set_weight(i, weight));
+  }
+  return change;
+}
+
+void Localizer::begin_bounded(FitMode mode) {
+  Refinement& r = refinement_;
+  if (!r.bounded) (void)assign_regions();
+  regions_held_ = r.bounded = true;
+  bounded_.begin(mode, stored_, kReach * frame_.length);
+  r.last_step.setConstant(frame_.length);  // the next sweep takes rows at the same pose: no foot needs a search
+  r.sweeps = 0;
+}
+
+void Localizer::include_row(std::uint32_t index, const Measurement& m) {
+  if (left_out(points_[index], m.foot)) {
+    bounded_.skip_row(index);
+  } else {
+    bounded_.set_row(index, distance_row(m.projection, m.foot, m.r, Vec6::Zero(), frame_));
+  }
+}
+
+/// The step of the mode at the end of a sweep. ok: this pose is the optimum, proven by its multipliers.
+Status Localizer::bounded_step() {
+  Refinement& r = refinement_;
+  const BoundedFit::Step step = bounded_.step(current_.model);
+  if (!succeeded(step.status)) return Status::iteration_cap;
+  if (step.settled && r.thorough && r.changed == 0) return bounded_optimum();
+  if (!step.from_last) r.last_pose = pose_;
+  pose_ = moved(r.last_pose, step.x, frame_);
+  r.last_step = step.x;
+  last_step_ = step.x.norm();
+  ++revision_;
+  return Status::more_work;
+}
+
+/// What follows from an optimum: regions that follow their feet are assigned anew; a constrained fit goes on from the
+/// smallest feasible tolerance where that is within the wanted one.
+Status Localizer::bounded_optimum() {
+  Refinement& r = refinement_;
+  if (config_.regions == RegionPolicy::follow && assign_regions() > kAtRest) {
+    if (++r.rounds == kMaxRounds) return Status::iteration_cap;
+    begin_bounded(config_.mode == FitMode::constrained ? FitMode::min_tolerance : config_.mode);
+    return Status::more_work;
+  }
+  stationarity_ = bounded_.stationarity();
+  const bool optimum = bounded_.mode() == config_.mode;
+  const double value = bounded_.value();
+  if (!optimum && value <= 1.0 + kFeasible) {
+    begin_bounded(FitMode::constrained);
+    return Status::more_work;
+  }
+  certificate_ = Certificate();
+  tolerance_factor_ = 0;
+  infeasible_ = !optimum;
+  if (config_.mode == FitMode::constrained && optimum) return Status::ok;
+  const bool one_level = config_.tolerance.box_count == 0 || !std::isfinite(config_.tolerance.leading_edge_mm);
+  const double unit = one_level ? config_.tolerance.rest_mm : config_.tolerance.leading_edge_mm;
+  tolerance_factor_ = infeasible_ ? value * unit : value;
+  if (config_.mode == FitMode::range) return Status::ok;
+  certificate_ = bounded_.certificate();
+  for (std::uint32_t k = 0; k < certificate_.count; ++k) {
+    if (infeasible_) certificate_.multiplier[k] *= unit;
+    certificate_.sequence[k] = points_[certificate_.sequence[k]].sequence;
+  }
+  return Status::ok;
+}
+
+}  // namespace bladefit
