@@ -177,6 +177,7 @@ bool Localizer::outside_window(const StoredPoint& point) const {
 }
 
 bool Localizer::left_out(const StoredPoint& point, const Foot& foot) const {
+  if (regions_held_) return point.held_out;
   return point.outside_window || (foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip);
 }
 

@@ -39,7 +39,11 @@ double Localizer::assign_regions() {
 
 void Localizer::begin_bounded(FitMode mode) {
   Refinement& r = refinement_;
-  if (!r.bounded) (void)assign_regions();
+  if (!r.bounded) {
+    // Which points count is settled by the least-squares fit: none escapes its bound over an edge.
+    for (std::uint32_t i = 0; i < stored_; ++i) points_[i].held_out = left_out(points_[i], points_[i].foot);
+    (void)assign_regions();
+  }
   regions_held_ = r.bounded = true;
   bounded_.begin(mode, stored_, kReach * frame_.length);
   r.last_step.setConstant(frame_.length);  // the next sweep takes rows at the same pose: no foot needs a search

@@ -29,11 +29,11 @@ void BoundedFit::attach(double* memory, std::uint32_t capacity) {
 void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
   mode_ = mode;
   count_ = count;
-  reach_ = reach;
+  reach_ = trust_ = reach;
   active_ = ActiveSet();
   curvature_.setZero();
   penalty_ = 0;
-  has_last_ = false;
+  has_last_ = curved_ = false;
 }
 
 double BoundedFit::set_weight(std::uint32_t i, double weight) {
@@ -94,14 +94,13 @@ Constraints BoundedFit::constraints() const {
             nullptr,
             -1,
             -1};
-  c.lower.head<6>().setConstant(-reach_);
-  c.upper.head<6>().setConstant(reach_);
+  c.lower.head<6>().setConstant(-trust_);
+  c.upper.head<6>().setConstant(trust_);
   return c;
 }
 
-/// min s with |d + J x| <= w s, or min s_high - s_low with s_low <= d + J x <= s_high.
-ActiveSetResult BoundedFit::solve_levels() const {
-  Constraints c = constraints();
+/// Adds the level or levels to the unknowns. Returns the gradient of the objective.
+Vec8 BoundedFit::set_levels(Constraints& c) const {
   Vec8 gradient = Vec8::Unit(6);
   c.variables = 7;
   c.rows.lower_level = c.rows.upper_level = 6;
@@ -111,7 +110,43 @@ ActiveSetResult BoundedFit::solve_levels() const {
     c.rows.upper_level = 7;
     gradient[7] = 1.0;
   }
-  return minimize_linear(gradient, c, Vec8::Zero(), active_);
+  return gradient;
+}
+
+/// min s with |d + J x| <= w s, or min s_high - s_low with s_low <= d + J x <= s_high.
+ActiveSetResult BoundedFit::solve_levels() const {
+  Constraints c = constraints();
+  const Vec8 gradient = set_levels(c);
+  ActiveSetResult result = minimize_linear(gradient, c, Vec8::Zero(), active_);
+  return curved_ && succeeded(result.status) ? solve_curved(result) : result;
+}
+
+/// The same with the curvature of the active distances, which decides where fewer than seven are active: Newton's step
+/// on the Lagrangian. Squares of the active constraints, which vanish where these hold, make the program convex.
+ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
+  Constraints c = constraints();
+  const Vec8 levels = set_levels(c);
+  double weight = curvature_.norm();
+  for (int attempt = 0; attempt < 4; ++attempt, weight *= 10.0) {
+    Mat8 hessian = Mat8::Zero();
+    hessian.topLeftCorner<6, 6>() = curvature_;
+    for (int k = c.variables; k < kMaxVariables; ++k) hessian(k, k) = 1.0;
+    Vec8 gradient = levels;
+    for (int k = 0; k < active_.count; ++k) {
+      const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+      if (entry.index >= static_cast<int>(count_)) continue;
+      const HalfSpace h = half_space(c, entry.index, entry.side);
+      hessian += weight * h.normal * h.normal.transpose();
+      gradient -= weight * h.offset * h.normal;
+    }
+    if (!CholeskyFactor<kMaxVariables>(hessian).positive_definite()) continue;
+    ActiveSetResult result = minimize_quadratic(hessian, gradient, c, active_);
+    if (!succeeded(result.status)) break;
+    result.objective = levels.dot(result.x);
+    result.residuals = kkt_residuals(nullptr, levels, c, result.x, result.active);
+    return result;
+  }
+  return linear;
 }
 
 /// min of the model with the curvature of the active constraints, |d + J x| <= tolerance. Where that is not convex the
@@ -130,9 +165,22 @@ bool BoundedFit::retreat(double merit, Step& step) {
   const bool checked = has_last_ && last_step_.norm() > kCheckedAbove * reach_;
   if (!checked || merit <= last_merit_ * (1.0 + kMeritRounding)) return false;
   last_step_ *= 0.25;
+  trust_ = last_step_.lpNorm<Eigen::Infinity>();
+  curved_ = true;
   step.x = last_step_;
   step.from_last = true;
   return true;
+}
+
+/// Steps whose promise was kept may become longer, others shorter.
+void BoundedFit::adapt_trust(double merit) {
+  if (!has_last_ || mode_ == FitMode::constrained) return;
+  const double kept = last_merit_ - merit, promised = last_merit_ - last_promise_;
+  const double length = last_step_.lpNorm<Eigen::Infinity>();
+  if (kept > 0.75 * promised) trust_ = std::min(reach_, std::max(trust_, 2.0 * length));
+  if (kept >= 0.25 * promised || length <= kCheckedAbove * reach_) return;
+  trust_ = 0.5 * length;
+  curved_ = true;
 }
 
 BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
@@ -142,6 +190,7 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
     curvature_.setZero();
     return step;
   }
+  adapt_trust(present);
   const ActiveSetResult result = mode_ == FitMode::constrained ? solve_bounds(model) : solve_levels();
   curvature_.setZero();
   step.status = result.status;
@@ -154,6 +203,7 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
   step.settled = step.x.norm() <= kSettledBelow * reach_;
   has_last_ = true;
   last_merit_ = mode_ == FitMode::constrained ? merit(model) : present;
+  last_promise_ = result.objective;
   last_step_ = step.x;
   return step;
 }

@@ -49,8 +49,11 @@ class BoundedFit {
 
  private:
   [[nodiscard]] bool retreat(double merit, Step& step);
+  void adapt_trust(double merit);
   [[nodiscard]] Constraints constraints() const;
+  [[nodiscard]] Vec8 set_levels(Constraints& constraints) const;
   [[nodiscard]] ActiveSetResult solve_levels() const;
+  [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
   [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
   [[nodiscard]] double distance(std::uint32_t i) const;
   [[nodiscard]] double merit(const QuadraticModel& model) const;
@@ -59,12 +62,13 @@ class BoundedFit {
   double* memory_ = nullptr;
   std::uint32_t capacity_ = 0, count_ = 0;
   FitMode mode_ = FitMode::minimax;
-  double reach_ = 0;
+  double reach_ = 0, trust_ = 0;  ///< trust: how far the expansions have held [mm]
   ActiveSet active_;
   Mat6 curvature_ = Mat6::Zero();  ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points
   double penalty_ = 0;             ///< of a violated tolerance, above the sum of the multipliers
   bool has_last_ = false;
-  double last_merit_ = 0;
+  bool curved_ = false;  ///< linear programs have promised too much: their curvature is taken into account
+  double last_merit_ = 0, last_promise_ = 0;  ///< before the last step, and after it by the expansions
   Vec6 last_step_ = Vec6::Zero();
   double stationarity_ = 0;
 };

@@ -22,6 +22,7 @@ struct StoredPoint {
   bool queued = false;          ///< waits in the ring of revisions
   bool fresh = false;           ///< its row is taken anew in every push
   bool outside_window = false;  ///< does not count in the fit
+  bool held_out = false;        ///< nor does it beyond least squares: its foot was on an edge then
 };
 
 /// Sums over the points of one region, at the poses they were last projected at.
