@@ -168,6 +168,7 @@ class Localizer {
   [[nodiscard]] bool finish_refine_sweep(Status& status);
   [[nodiscard]] bool retreat();
   [[nodiscard]] Status least_squares_step();
+  [[nodiscard]] FitMode first_stage() const;
   void begin_bounded(FitMode mode);
   [[nodiscard]] Status bounded_step();
   [[nodiscard]] Status bounded_optimum();

@@ -37,6 +37,19 @@ double Localizer::assign_regions() {
   return change;
 }
 
+/// A constrained fit begins with the smallest feasible tolerance. A range begins with the minimax, from where it meets
+/// its best optimum more often: with few points it has several.
+FitMode Localizer::first_stage() const {
+  switch (config_.mode) {
+    case FitMode::constrained:
+      return FitMode::min_tolerance;
+    case FitMode::range:
+      return FitMode::minimax;
+    default:
+      return config_.mode;
+  }
+}
+
 void Localizer::begin_bounded(FitMode mode) {
   Refinement& r = refinement_;
   if (!r.bounded) {
@@ -72,20 +85,20 @@ Status Localizer::bounded_step() {
   return Status::more_work;
 }
 
-/// What follows from an optimum: regions that follow their feet are assigned anew; a constrained fit goes on from the
-/// smallest feasible tolerance where that is within the wanted one.
+/// What follows from an optimum: regions that follow their feet are assigned anew; the second stage begins, which for
+/// a constrained fit it does where the smallest feasible tolerance is within the wanted one.
 Status Localizer::bounded_optimum() {
   Refinement& r = refinement_;
   if (config_.regions == RegionPolicy::follow && assign_regions() > kAtRest) {
     if (++r.rounds == kMaxRounds) return Status::iteration_cap;
-    begin_bounded(config_.mode == FitMode::constrained ? FitMode::min_tolerance : config_.mode);
+    begin_bounded(first_stage());
     return Status::more_work;
   }
   stationarity_ = bounded_.stationarity();
   const bool optimum = bounded_.mode() == config_.mode;
   const double value = bounded_.value();
-  if (!optimum && value <= 1.0 + kFeasible) {
-    begin_bounded(FitMode::constrained);
+  if (!optimum && (config_.mode == FitMode::range || value <= 1.0 + kFeasible)) {
+    begin_bounded(config_.mode);
     return Status::more_work;
   }
   certificate_ = Certificate();

@@ -44,7 +44,7 @@ Status Localizer::least_squares_step() {
   if (!r.thorough || r.changed > 0 || step > kConvergedBelow * frame_.length) return Status::more_work;
   if (determination_.rank < 6) return Status::underdetermined;
   if (config_.mode == FitMode::least_squares) return Status::ok;
-  begin_bounded(config_.mode == FitMode::constrained ? FitMode::min_tolerance : config_.mode);
+  begin_bounded(first_stage());
   return Status::more_work;
 }
 
