@@ -66,7 +66,7 @@ bool config_valid(const LocalizerConfig& c, std::size_t patches) {
 std::size_t Localizer::memory_required(const LocalizerConfig& config) {
   const std::size_t rows = config.mode == FitMode::least_squares ? 0 : BoundedFit::kDoublesPerPoint;
   return rounded_up(sizeof(Localizer)) + rounded_up(sizeof(StoredPoint) * config.capacity) +
-         rounded_up(sizeof(std::uint32_t) * config.capacity) + rounded_up(sizeof(double) * rows * config.capacity);
+         2 * rounded_up(sizeof(std::uint32_t) * config.capacity) + rounded_up(sizeof(double) * rows * config.capacity);
 }
 
 Localizer::Localizer(const DesignImage& design, const LocalizerConfig& config) : surface_(design), config_(config) {
@@ -92,6 +92,9 @@ Status Localizer::create(std::span<std::byte> memory, const DesignImage& design,
   made->queue_ = reinterpret_cast<std::uint32_t*>(place);
   for (std::uint32_t k = 0; k < config.capacity; ++k) new (&made->queue_[k]) std::uint32_t(0);
   place += rounded_up(sizeof(std::uint32_t) * config.capacity);
+  made->order_ = reinterpret_cast<std::uint32_t*>(place);
+  for (std::uint32_t k = 0; k < config.capacity; ++k) new (&made->order_[k]) std::uint32_t(0);
+  place += rounded_up(sizeof(std::uint32_t) * config.capacity);
   if (config.mode != FitMode::least_squares) {
     auto* rows = reinterpret_cast<double*>(place);
     for (std::size_t k = 0; k < BoundedFit::kDoublesPerPoint * config.capacity; ++k) new (&rows[k]) double(0);
@@ -111,12 +114,12 @@ void Localizer::reset() {
   refinement_ = Refinement();
   sigma_ = config_.noise_floor_mm;
   concluded_ = converged_ = has_last_ = regions_held_ = infeasible_ = false;
-  tolerance_factor_ = stationarity_ = 0;
+  tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0;
   certificate_ = Certificate();
   unproven_ = 0;
   revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
   judged_out_[0] = judged_out_[1] = 0;
-  stored_ = fresh_count_ = active_count_ = cursor_ = queue_head_ = queue_size_ = 0;
+  stored_ = next_given_up_ = fresh_count_ = active_count_ = cursor_ = queue_head_ = queue_size_ = 0;
   last_place_ = SurfacePlace();
   last_step_ = 0;
   begin_sweep();

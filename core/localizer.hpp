@@ -21,7 +21,9 @@ enum class EdgePolicy : std::uint8_t { skip = 0, use = 1 };
 enum class RegionPolicy : std::uint8_t { follow = 0, fixed = 1 };  ///< the present one; that of the least-squares fit
 
 struct LocalizerConfig {
-  std::uint32_t capacity = 65536;       ///< points that keep a place; later ones are judged and counted only
+  /// Points that keep a place, where their feet follow the pose. Beyond it points are judged and counted, and their
+  /// rows stay in the sums as they were; a point of the leading edge takes the place of an older one of the rest.
+  std::uint32_t capacity = 65536;
   std::uint32_t refresh_per_push = 8;   ///< K: stored points projected anew in each push (2..64)
   double probe_radius_mm = 0;           ///< points are centres of a ball of this radius
   bool use_approach = true;             ///< approach vectors choose the side of the blade
@@ -68,6 +70,9 @@ struct FitReport {
   /// where constrained is infeasible, the smallest leading-edge tolerance that is not, the ratio kept [mm]. 0 until
   /// known.
   double tolerance_factor_mm = 0;
+  /// Smallest leading-edge tolerance that some pose meets, the ratio kept, from min_tolerance and constrained; 0 until
+  /// known [mm].
+  double smallest_tolerance_mm = 0;
   Certificate certificate;  ///< of that optimum; no points in least squares, range and a feasible constrained fit
   double stationarity = 0;  ///< of its Karush-Kuhn-Tucker conditions, relative: the self check of the mode
   std::uint32_t unproven =
@@ -149,6 +154,9 @@ class Localizer {
   [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose) const;
   [[nodiscard]] StoredPoint admitted(const ProbePoint& point, Measurement& measurement) const;
   StoredPoint* store(const StoredPoint& point, const Measurement& measurement);
+  StoredPoint* keep(std::uint32_t index, const StoredPoint& point, const Measurement& measurement);
+  [[nodiscard]] std::uint32_t place_to_give_up();
+  void give_up(std::uint32_t index);
   void note(StoredPoint& point, const Measurement& measurement);
   void judge(StoredPoint& point);
   void count_verdict(const StoredPoint& point, int sign);
@@ -172,6 +180,7 @@ class Localizer {
   void begin_bounded(FitMode mode);
   [[nodiscard]] Status bounded_step();
   [[nodiscard]] Status bounded_optimum();
+  void certify(double unit);
   [[nodiscard]] double assign_regions();
   void include_row(std::uint32_t index, const Measurement& measurement);
   [[nodiscard]] double threshold() const;
@@ -195,7 +204,7 @@ class Localizer {
   BoundedFit bounded_;
   bool regions_held_ = false;  ///< points keep region and tolerance whatever their feet
   bool infeasible_ = false;
-  double tolerance_factor_ = 0, stationarity_ = 0;
+  double tolerance_factor_ = 0, smallest_tolerance_ = 0, stationarity_ = 0;
   Certificate certificate_;
   std::uint32_t unproven_ = 0;
   double last_step_ = 0;
@@ -203,13 +212,14 @@ class Localizer {
   std::uint32_t judged_out_[2] = {0, 0};
   SurfacePlace last_place_;
   bool has_last_ = false;
-  std::uint32_t stored_ = 0, cursor_ = 0;
+  std::uint32_t stored_ = 0, cursor_ = 0, next_given_up_ = 0;
   std::uint32_t queue_head_ = 0, queue_size_ = 0;
   /// Indices of the fresh points; the first active_count_ are outside of settled_, the others leave it at the sweep's
   /// end.
   std::array<std::uint32_t, kFreshPlaces> fresh_{};
   std::uint32_t fresh_count_ = 0, active_count_ = 0;
   StoredPoint* points_ = nullptr;   ///< capacity of them
+  std::uint32_t* order_ = nullptr;  ///< their indices by rising sequence
   std::uint32_t* queue_ = nullptr;  ///< ring of indices with a changed verdict, each at most once
 };
 

@@ -96,25 +96,33 @@ Status Localizer::bounded_optimum() {
   }
   stationarity_ = bounded_.stationarity();
   const bool optimum = bounded_.mode() == config_.mode;
+  // The weights of a constrained fit are its tolerances, those of min_tolerance are 1 at the leading edge.
+  const bool one_level = config_.tolerance.box_count == 0 || !std::isfinite(config_.tolerance.leading_edge_mm);
+  const double asked = one_level ? config_.tolerance.rest_mm : config_.tolerance.leading_edge_mm;
+  const double unit = config_.mode == FitMode::constrained ? asked : 1.0;
   const double value = bounded_.value();
+  if (bounded_.mode() == FitMode::min_tolerance) smallest_tolerance_ = value * unit;
   if (!optimum && (config_.mode == FitMode::range || value <= 1.0 + kFeasible)) {
     begin_bounded(config_.mode);
     return Status::more_work;
   }
+  infeasible_ = !optimum;
+  certify(unit);
+  return Status::ok;
+}
+
+/// What is told of an optimum: its value and the points that prove it.
+void Localizer::certify(double unit) {
   certificate_ = Certificate();
   tolerance_factor_ = 0;
-  infeasible_ = !optimum;
-  if (config_.mode == FitMode::constrained && optimum) return Status::ok;
-  const bool one_level = config_.tolerance.box_count == 0 || !std::isfinite(config_.tolerance.leading_edge_mm);
-  const double unit = one_level ? config_.tolerance.rest_mm : config_.tolerance.leading_edge_mm;
-  tolerance_factor_ = infeasible_ ? value * unit : value;
-  if (config_.mode == FitMode::range) return Status::ok;
+  if (bounded_.mode() == FitMode::constrained) return;
+  tolerance_factor_ = bounded_.value() * unit;
+  if (bounded_.mode() == FitMode::range) return;
   certificate_ = bounded_.certificate();
   for (std::uint32_t k = 0; k < certificate_.count; ++k) {
-    if (infeasible_) certificate_.multiplier[k] *= unit;
+    certificate_.multiplier[k] *= unit;
     certificate_.sequence[k] = points_[certificate_.sequence[k]].sequence;
   }
-  return Status::ok;
 }
 
 }  // namespace bladefit

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/localizer.hpp"
@@ -53,17 +54,12 @@ bool Localizer::next_revision(Verdict& verdict) {
 }
 
 Status Localizer::verdict_of(std::uint32_t sequence, Verdict& verdict) const {
-  std::uint32_t low = 0, high = stored_;
-  while (low < high) {
-    const std::uint32_t middle = low + (high - low) / 2;
-    if (points_[middle].sequence < sequence) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  if (low == stored_ || points_[low].sequence != sequence) return Status::not_found;
-  verdict = verdict_from(points_[low]);
+  const std::uint32_t* end = order_ + stored_;
+  const std::uint32_t* found =
+      std::lower_bound(static_cast<const std::uint32_t*>(order_), end, sequence,
+                       [this](std::uint32_t i, std::uint32_t wanted) { return points_[i].sequence < wanted; });
+  if (found == end || points_[*found].sequence != sequence) return Status::not_found;
+  verdict = verdict_from(points_[*found]);
   return Status::ok;
 }
 
@@ -87,6 +83,7 @@ FitReport Localizer::fit() const {
     report.status = !converged_ ? FitStatus::tracking : infeasible_ ? FitStatus::infeasible : FitStatus::converged;
   }
   report.tolerance_factor_mm = tolerance_factor_;
+  report.smallest_tolerance_mm = smallest_tolerance_;
   report.certificate = certificate_;
   report.stationarity = stationarity_;
   report.unproven = unproven_;

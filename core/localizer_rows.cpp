@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/localizer.hpp"
 
 namespace bladefit {
@@ -7,6 +9,8 @@ namespace {
 /// small motion of the pose can move their foot to the other side of an edge, which no expansion foretells.
 constexpr std::uint32_t kNewest = 4;
 constexpr double kContestedLead = 3e-4;
+/// Stored points that are looked at for one whose place a point of the leading edge may take.
+constexpr std::uint32_t kPlacesLookedAt = 64;
 
 }  // namespace
 
@@ -36,18 +40,54 @@ StoredPoint* Localizer::store(const StoredPoint& point, const Measurement& m) {
   last_sequence_ = point.sequence;
   last_place_ = m.projection.place;
   ++accepted_;
-  if (stored_ == config_.capacity) {
+  if (stored_ < config_.capacity) {
+    order_[stored_] = stored_;
+    return keep(stored_++, point, m);
+  }
+  const bool leading_edge = region_at(config_.tolerance, m.foot.patch, m.foot.u, m.foot.v) == Region::leading_edge &&
+                            !left_out(point, m.foot);
+  const std::uint32_t index = leading_edge ? place_to_give_up() : stored_;
+  if (index == stored_) {
     for (FitSums* sums : {&settled_, &filling_, &frozen_}) include(*sums, point, m);
     return nullptr;
   }
-  points_[stored_] = point;
-  note(points_[stored_], m);
+  give_up(index);
+  order_[stored_ - 1] = index;
+  return keep(index, point, m);
+}
+
+StoredPoint* Localizer::keep(std::uint32_t index, const StoredPoint& point, const Measurement& m) {
+  points_[index] = point;
+  note(points_[index], m);
   if (fresh_count_ == kFreshPlaces) settle_one(0);
-  make_fresh(stored_);
+  make_fresh(index);
   // The new one is active at once; those that join at the end of the sweep stay behind it.
   std::swap(fresh_[fresh_count_ - 1], fresh_[active_count_]);
   ++active_count_;
-  return &points_[stored_++];
+  return &points_[index];
+}
+
+/// The next stored point of the rest that nothing waits for, looked for among a few; stored_ where there is none.
+std::uint32_t Localizer::place_to_give_up() {
+  for (std::uint32_t k = 0; k < kPlacesLookedAt; ++k) {
+    const std::uint32_t index = next_given_up_;
+    next_given_up_ = next_given_up_ + 1 < stored_ ? next_given_up_ + 1 : 0;
+    const StoredPoint& point = points_[index];
+    if (point.region == Region::rest && !point.fresh && !point.queued) return index;
+  }
+  return stored_;
+}
+
+/// A point loses its place: its row stays in the sums as it is now. Leaves the last place of order_ free.
+/// Cost: one projection, and moving up to `capacity` indices.
+void Localizer::give_up(std::uint32_t index) {
+  const StoredPoint& point = points_[index];
+  const Measurement m = measure(point, pose_);
+  include(frozen_, point, m);
+  if (index >= cursor_) include(filling_, point, m);
+  const auto by_sequence = [this](std::uint32_t i, std::uint32_t sequence) { return points_[i].sequence < sequence; };
+  std::uint32_t* at = std::lower_bound(order_, order_ + stored_, point.sequence, by_sequence);
+  std::copy(at + 1, order_ + stored_, at);
 }
 
 void Localizer::make_fresh(std::uint32_t index) {

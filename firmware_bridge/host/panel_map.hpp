@@ -23,7 +23,7 @@ namespace bladefit {
 ///   45-46  leading-edge tolerance; 47-48 tolerance elsewhere (infinity: not judged)
 ///   49-50  float32 99th percentile of the time that a push takes [us]
 ///   51     heartbeat, +1 a second
-///   52-53  smallest feasible leading-edge tolerance: 0 in this version, which does not compute it
+///   52-53  smallest feasible leading-edge tolerance, of the modes min_tolerance and constrained once refined; else 0
 ///   54     determined degrees of freedom
 ///   60-91  the 8 newest leading-edge points out of tolerance, newest first: uint32 sequence, float32 distance
 ///

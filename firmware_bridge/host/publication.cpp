@@ -89,6 +89,7 @@ void Publication::update_fit() {
   state_.pose = {to_float(shift.x()),  to_float(shift.y()),    to_float(shift.z()),
                  to_float(angles.psi), to_float(angles.theta), to_float(angles.phi)};
   state_.determined = static_cast<std::uint16_t>(report.determined);
+  state_.smallest_feasible = to_float(report.smallest_tolerance_mm);
   state_.leading_edge_tolerance = to_float(tolerance_.leading_edge_mm);
   state_.rest_tolerance = to_float(tolerance_.rest_mm);
   state_.push_latency_us = to_float(figures_.push_p99_us);

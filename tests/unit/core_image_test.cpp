@@ -13,10 +13,19 @@
 namespace bladefit::testing {
 namespace {
 
-/// Two small patches, one rational, with several spans and a tree of some depth.
+/// Two small patches, one rational, with several spans and a tree of some depth; nearly flat, so that leaves are few.
 const std::vector<std::byte>& small_image() {
-  static const std::vector<std::byte> bytes = write_image(
-      {random_surface({3, 2}, {3, 2}, true, 31), random_surface({2, 2}, {4, 1}, false, 32)}, DesignUnit::inch, -1);
+  static const std::vector<std::byte> bytes = [] {
+    std::vector<NurbsSurface> surfaces{random_surface({2, 2}, {2, 2}, true, 31),
+                                       random_surface({1, 1}, {3, 1}, false, 32)};
+    for (NurbsSurface& surface : surfaces) {
+      for (Eigen::Vector3d& point : surface.control_points) point.z() *= 0.01;
+      for (double& weight : surface.weights) weight = 1.0 + 0.01 * weight;
+    }
+    if (!surfaces.back().weights.empty())
+      std::fill(surfaces.back().weights.begin(), surfaces.back().weights.end(), 1.0);
+    return write_image(surfaces, DesignUnit::inch, -1);
+  }();
   return bytes;
 }
 

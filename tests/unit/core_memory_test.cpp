@@ -160,9 +160,16 @@ TEST(CoreMemoryDeathTest, EigensCheckIsAlive) {
       "allocation is forbidden");
 }
 
-TEST(CoreMemory, NothingIsAllocatedInAWholeSession) {
+class CoreMemoryOfMode : public ::testing::TestWithParam<FitMode> {};
+
+TEST_P(CoreMemoryOfMode, NothingIsAllocatedInAWholeSession) {
   const BladeSession s;
   LocalizerConfig config = s.config;
+  config.mode = GetParam();
+  if (config.mode == FitMode::constrained) {
+    config.tolerance.leading_edge_mm = 0.05;
+    config.tolerance.rest_mm = 0.5;
+  }
   config.capacity = 1500;  // the memory becomes full on the way
   const AlignedBlock block(Localizer::memory_required(config));
   std::size_t accepted = 0, revisions = 0, found = 0;
@@ -176,7 +183,7 @@ TEST(CoreMemory, NothingIsAllocatedInAWholeSession) {
   for (const ProbePoint& point : s.points) {
     accepted += succeeded(localizer->push(point, verdict)) ? 1 : 0;
     while (localizer->next_revision(verdict)) ++revisions;
-    if (point.sequence % 100 == 0) (void)localizer->refine(500);
+    if (point.sequence % 100 == 0) (void)localizer->refine(config.mode == FitMode::least_squares ? 500 : 20000);
     if (point.sequence % 10 == 0) (void)localizer->fit();
   }
   localizer->conclude();
@@ -198,6 +205,10 @@ TEST(CoreMemory, NothingIsAllocatedInAWholeSession) {
   EXPECT_GT(revisions, 0U);
   EXPECT_EQ(report.status, FitStatus::converged);
 }
+
+INSTANTIATE_TEST_SUITE_P(Modes, CoreMemoryOfMode,
+                         ::testing::Values(FitMode::least_squares, FitMode::range, FitMode::min_tolerance,
+                                           FitMode::constrained));
 
 TEST(CoreMemory, NothingIsAllocatedBySolvingPrograms) {
   std::mt19937_64 random(7);

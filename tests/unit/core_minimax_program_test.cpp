@@ -12,8 +12,6 @@
 namespace bladefit::testing {
 namespace {
 
-std::mt19937_64 seeded() { return std::mt19937_64(*rc::gen::noShrink(rc::gen::arbitrary<std::uint64_t>())); }
-
 /// Least g'x over all vertices, by trying every n half spaces.
 double least_vertex(const Constraints& c, const Vec8& gradient) {
   std::vector<HalfSpace> all;

@@ -1,13 +1,18 @@
 #pragma once
+#include <rapidcheck.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
 #include <random>
 #include <vector>
 
 #include "core/fit/active_set.hpp"
 
 namespace bladefit::testing {
+
+/// Random numbers whose seed a failure prints.
+inline std::mt19937_64 seeded() { return std::mt19937_64(*rc::gen::noShrink(rc::gen::arbitrary<std::uint64_t>())); }
 
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 inline constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
@@ -127,5 +132,52 @@ inline ExactKkt exact_kkt(const Mat8& hessian, const Vec8& gradient, const Const
   }
   return out;
 }
+
+inline Mat8 drawn_hessian(std::mt19937_64& random, int n, double condition) {
+  Mat8 out = Mat8::Zero();
+  for (int k = 0; k < 3 * n; ++k) {
+    const Vec8 v = drawn_vector(random, n);
+    out += std::pow(condition, -drawn(random, 0, 1)) * v * v.transpose();
+  }
+  return out;
+}
+
+/// A problem whose minimum is known: x, active rows with multipliers, and a gradient that makes them stationary.
+struct KnownMinimum {
+  OwnedRows rows;
+  Mat8 hessian;
+  Vec8 gradient, x;
+  std::vector<double> multiplier;  ///< of row i, 0 where it is not active
+
+  KnownMinimum(std::mt19937_64& random, int n, int count, int active, double condition) : hessian(Mat8::Zero()) {
+    rows.width = n;
+    hessian = drawn_hessian(random, n, condition);
+    x = drawn_vector(random, n);
+    gradient = -(hessian * x);
+    for (int i = 0; i < count; ++i) {
+      const Vec8 row = drawn_vector(random, n);
+      const double value = row.dot(x), gap = drawn(random, 1e-3, 1);
+      const bool is_active = i < active, upper = random() % 2 == 0;
+      const double beyond = random() % 3 == 0 ? kUnlimited : drawn(random, 1e-3, 1);
+      // Some active rows have multiplier 0, some are equations.
+      multiplier.push_back(is_active && random() % 5 != 0 ? drawn(random, 0.1, 2) : 0.0);
+      const double other = is_active && random() % 4 == 0 ? 0.0 : beyond;
+      const double near = is_active ? 0.0 : gap;
+      if (upper) {
+        rows.add(row, value - other, value + near);
+      } else {
+        rows.add(row, value - near, value + other);
+      }
+      gradient += (upper ? -1.0 : 1.0) * multiplier.back() * row;
+    }
+  }
+
+  Constraints constraints() {
+    Constraints out;
+    out.variables = rows.width;
+    out.rows = rows.view();
+    return out;
+  }
+};
 
 }  // namespace bladefit::testing

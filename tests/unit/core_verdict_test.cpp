@@ -186,6 +186,9 @@ TEST_F(Refusals, LeaveTheStateAsBefore) {
     point.sequence = 0;
     expect_refused(point, Status::out_of_range);
     point = good;
+    point.position[1] = 1e9;
+    expect_refused(point, Status::out_of_range);
+    point = good;
     point.approach = {0.5, 0.5, 0.5};
     expect_refused(point, Status::out_of_range);
     if (count == 0) continue;
