@@ -16,6 +16,9 @@ constexpr double kLongestStep = 0.05;
 constexpr double kFarthest = 1e3;
 /// Start poses are assumed right to within this [half diagonals] when a direction is not determined yet.
 constexpr double kStartUncertainty = 0.01;
+/// A distance above its tolerance by no more than this [half diagonals] is in: a constrained optimum touches its
+/// bounds.
+constexpr double kTouching = 1e-11;
 /// A verdict is pending while what is not determined may change the distance by more than this share of the tolerance.
 constexpr double kPendingShare = 0.1;
 /// Fewer fitted points than this hide their own errors: every verdict is pending.
@@ -279,7 +282,7 @@ void Localizer::judge(StoredPoint& point) {
     point.state = PointState::rejected;
   } else if (free > share || (current_.model.count < kLeastFitted && !concluded_)) {
     point.state = PointState::pending;
-  } else if (std::abs(foot.distance) > point.tolerance) {
+  } else if (std::abs(foot.distance) > point.tolerance + kTouching * frame_.length) {
     point.state = PointState::out;
     point.action = foot.distance > 0.0 ? Action::cut : Action::weld;
   } else {

@@ -10,6 +10,8 @@ namespace {
 constexpr double kReach = 0.05;
 /// Regions follow the feet this many times at most: then they do not come to rest.
 constexpr std::uint32_t kMaxRounds = 20;
+/// So many times they do so freely; then tolerances only become tighter.
+constexpr std::uint32_t kFreeRounds = 3;
 /// Weights that change by less than this share are at rest.
 constexpr double kAtRest = 1e-10;
 /// A tolerance below the smallest feasible one by no more than this share is met.
@@ -26,12 +28,15 @@ double Localizer::assign_regions() {
   for (std::uint32_t i = 0; i < stored_; ++i) {
     StoredPoint& point = points_[i];
     const Foot& foot = point.foot;
-    if (point.tolerance != 0.0) count_verdict(point, -1);
+    const double weight = config_.mode == FitMode::constrained
+                              ? tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v)
+                              : tolerance_at(weights, foot.patch, foot.u, foot.v);
+    // A foot on the border of a region may be drawn over it by one bound and back by the other: it keeps the tighter.
+    if (refinement_.rounds >= kFreeRounds && weight > bounded_.weight(i)) continue;
+    count_verdict(point, -1);
     point.region = region_at(config_.tolerance, foot.patch, foot.u, foot.v);
     point.tolerance = tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
     count_verdict(point, +1);
-    const double weight =
-        config_.mode == FitMode::constrained ? point.tolerance : tolerance_at(weights, foot.patch, foot.u, foot.v);
     change = std::max(change, bounded_.set_weight(i, weight));
   }
   return change;

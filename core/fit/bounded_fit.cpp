@@ -43,6 +43,8 @@ double BoundedFit::set_weight(std::uint32_t i, double weight) {
   return change;
 }
 
+double BoundedFit::weight(std::uint32_t i) const { return column(kWeight)[i]; }
+
 void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
   for (int k = 0; k < 6; ++k) column(k)[i] = row.gradient[k];
   const double half = mode_ == FitMode::constrained ? column(kWeight)[i] : 0.0;

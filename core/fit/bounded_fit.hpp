@@ -24,6 +24,7 @@ class BoundedFit {
   /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again.
   /// Returns how much it changed, relative to the new one.
   double set_weight(std::uint32_t i, double weight);
+  [[nodiscard]] double weight(std::uint32_t i) const;
   /// The row of point i at the present pose.
   void set_row(std::uint32_t i, const DistanceRow& row);
   /// Point i does not count.

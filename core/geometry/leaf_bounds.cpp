@@ -32,6 +32,15 @@ DerivativeRanges derivative_ranges(const ImageBounds& bounds, const Vec3& w) {
   return {range(0), range(1), range(2), range(3), range(4)};
 }
 
+DerivativeRanges ranges_along_t(const ImageBounds& bounds, const DerivativeRanges& ranges) {
+  // St = (Sb - k Sa) / stretch[1].
+  const double k = bounds.stretch[2] / bounds.stretch[0];
+  DerivativeRanges out = ranges;
+  out.vv.least += k * k * ranges.uu.least - 2.0 * std::max(k * ranges.uv.least, k * ranges.uv.most);
+  out.vv.most += k * k * ranges.uu.most - 2.0 * std::min(k * ranges.uv.least, k * ranges.uv.most);
+  return out;
+}
+
 LocalPlace first_guess(const ImageBounds& bounds, const Vec3& w) {
   const double* stretch = bounds.stretch;
   const double g_s = dot(bounds.derivative[0], w), g_t = dot(bounds.derivative[1], w);

@@ -12,6 +12,8 @@ namespace {
 
 /// Rectangles are not cut below 2^-kMaxCuts of a span.
 constexpr std::uint32_t kMaxCuts = 60;
+/// Pieces of one leaf: one that lies at a centre of curvature must not use up the others' share.
+constexpr std::uint32_t kMaxLeafPieces = 1024;
 
 struct Piece {
   LocalRect rect;
@@ -42,8 +44,12 @@ class LeafSearch {
     const DerivativeRanges ranges = derivative_ranges(leaf_.bounds, arm_);
     Fate fate = Fate::shrunk;
     // A piece has two directions to lose.
-    for (int k = 0; k < 3 && fate == Fate::shrunk; ++k) fate = decide(piece, prove(ranges, piece.shape()));
-    return fate == Fate::settled ? LeafOutcome{} : search_pieces(piece, budget);
+    for (int k = 0; k < 3 && fate == Fate::shrunk; ++k) {
+      const PieceShape shape = piece.shape();
+      fate = decide(piece, prove(shape.along_u ? ranges : ranges_along_t(leaf_.bounds, ranges), shape));
+    }
+    if (fate == Fate::settled) return {};
+    return search_pieces(piece, std::min(budget, kMaxLeafPieces));
   }
 
  private:

@@ -41,6 +41,11 @@ void check_leaf(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, st
     const auto parameter = [&] { return std::clamp(uniform(random, -0.3, 1.3), 0.0, 1.0); };
     const double s = parameter(), t = parameter();
     const std::array<double, 5> found = derivatives(surface, leaf, r, s, t);
+    const double k_t = leaf.bounds.stretch[2] / leaf.bounds.stretch[0];
+    const double along_t = found[4] - 2.0 * k_t * found[3] + k_t * k_t * found[2];
+    const ValueRange tt = ranges_along_t(leaf.bounds, ranges).vv;
+    RC_ASSERT(along_t >= tt.least - 1e-10 * (std::abs(tt.least) + std::abs(tt.most)));
+    RC_ASSERT(along_t <= tt.most + 1e-10 * (std::abs(tt.least) + std::abs(tt.most)));
     for (std::size_t i = 0; i < 5; ++i) {
       const double rounding = 1e-10 * (std::abs(expected[i].least) + std::abs(expected[i].most));
       RC_ASSERT(found[i] >= expected[i].least - rounding);
