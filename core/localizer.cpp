@@ -59,8 +59,8 @@ bool config_valid(const LocalizerConfig& c, std::size_t patches) {
   const bool lengths = std::isfinite(c.probe_radius_mm) && c.probe_radius_mm >= 0.0 && c.noise_floor_mm > 0.0 &&
                        std::isfinite(c.noise_floor_mm) && c.determined_mm >= 0.0;
   const bool window = c.window_low >= 0.0 && c.window_low < c.window_high && c.window_high <= 1.0;
-  const bool modes = std::isfinite(c.ratio) && c.ratio >= 1.0 &&
-                     (c.mode != FitMode::constrained || std::isfinite(c.tolerance.rest_mm));
+  const bool modes =
+      std::isfinite(c.ratio) && c.ratio > 0.0 && (c.mode != FitMode::constrained || std::isfinite(c.tolerance.rest_mm));
   return sizes && lengths && window && modes && pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
 }
 

@@ -48,18 +48,17 @@ void plan_boxes(const FitSettings& settings, const DesignImage& design, Toleranc
 void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
   ToleranceMap& map = plan.localizer.tolerance;
   const double ratio = settings.ratio.value_or(10.0);
-  if (!(ratio >= 1.0))
+  if (!(ratio >= 1.0)) {
     throw DesignError(fmt::format("--ratio: {} is below 1; the rest has the wider tolerance", ratio));
+  }
   if (settings.tolerance) {
     map.leading_edge_mm = positive(*settings.tolerance, "--tolerance") * plan.mm_per_unit;
     map.rest_mm = ratio * map.leading_edge_mm;
   }
   if (settings.rest_tolerance) map.rest_mm = positive(*settings.rest_tolerance, "--rest-tolerance") * plan.mm_per_unit;
   plan.localizer.ratio = ratio;
-  if (settings.tolerance && settings.rest_tolerance) {
-    if (map.rest_mm < map.leading_edge_mm)
-      throw DesignError(fmt::format("--rest-tolerance: {} is below --tolerance {}; the rest has the wider tolerance",
-                                    *settings.rest_tolerance, *settings.tolerance));
+  // The tolerances give the ratio of min_tolerance where it is not given itself.
+  if (settings.tolerance && settings.rest_tolerance && !settings.ratio) {
     plan.localizer.ratio = map.rest_mm / map.leading_edge_mm;
   }
   map.transition = settings.transition.value_or(0.0);
@@ -80,9 +79,10 @@ constexpr std::array<std::pair<const char*, FitMode>, 5> kModes{{{"least_squares
 void plan_mode(const FitSettings& settings, FitPlan& plan) {
   plan.mode = settings.mode.value_or("least_squares");
   const auto mode = std::find_if(kModes.begin(), kModes.end(), [&](const auto& m) { return plan.mode == m.first; });
-  if (mode == kModes.end())
+  if (mode == kModes.end()) {
     throw DesignError(
         fmt::format("--mode {}: give least_squares, minimax, range, min_tolerance or constrained", plan.mode));
+  }
   plan.localizer.mode = mode->second;
   const std::string regions = settings.regions.value_or("follow");
   if (regions != "follow" && regions != "fixed")
@@ -94,16 +94,21 @@ void plan_mode(const FitSettings& settings, FitPlan& plan) {
 }
 
 /// What a mode needs beside its name.
-void check_mode(const FitSettings& settings, const FitPlan& plan) {
-  const ToleranceMap& map = plan.localizer.tolerance;
-  if (plan.localizer.mode == FitMode::constrained && !std::isfinite(map.rest_mm))
+void check_mode(const FitPlan& plan) {
+  const LocalizerConfig& fit = plan.localizer;
+  if (fit.mode == FitMode::constrained && !std::isfinite(fit.tolerance.rest_mm)) {
     throw DesignError(
-        "--mode constrained: no tolerance is given; add --tolerance, or use --mode min_tolerance to find "
-        "the smallest one");
-  if (plan.localizer.mode == FitMode::min_tolerance && map.box_count == 0)
+        "--mode constrained: no tolerance is given; add --tolerance, or use --mode min_tolerance to find the smallest "
+        "one");
+  }
+  if (fit.mode != FitMode::min_tolerance) return;
+  if (fit.tolerance.box_count == 0) {
     throw DesignError("--mode min_tolerance: no leading edge is given; add --leading-edge, or use --mode minimax");
-  if (settings.rest_tolerance && settings.ratio)
-    throw DesignError("--ratio: --rest-tolerance is given as well; leave one of them out");
+  }
+  if (fit.ratio < 1.0) {
+    throw DesignError(fmt::format(
+        "--rest-tolerance: it is {:g} times --tolerance; min_tolerance needs the wider one elsewhere", fit.ratio));
+  }
 }
 
 void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan& plan) {
@@ -177,7 +182,7 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   plan_units(settings, design, plan);
   plan_boxes(settings, design, plan.localizer.tolerance);
   plan_tolerance(settings, plan);
-  check_mode(settings, plan);
+  check_mode(plan);
   const double radius = settings.probe_radius.value_or(0.0);
   if (!(radius >= 0.0) || !std::isfinite(radius))
     throw DesignError(fmt::format("--probe-radius: {} is not a radius; give 0 or more", radius));

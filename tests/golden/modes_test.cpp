@@ -123,7 +123,8 @@ TEST_F(GoldenModeOptions, WhatAModeNeedsIsAskedFor) {
   refused({"--mode", "constrained"}, "--tolerance");
   refused({"--mode", "min_tolerance"}, "--leading-edge");
   refused({"--mode", "best"}, "minimax");
-  refused({"--tolerance", "0.2", "--rest-tolerance", "0.1"}, "--rest-tolerance");
+  refused({"--mode", "min_tolerance", "--leading-edge", "u:0.4:0.6", "--tolerance", "0.2", "--rest-tolerance", "0.1"},
+          "--rest-tolerance");
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace bladefit {
 namespace {
 
 using Extended = long double;
-using Homogeneous = Eigen::Matrix<Extended, 4, 1>;
+using ExtendedPoint = Eigen::Matrix<Extended, 4, 1>;
 
 /// One nonempty knot span inside the used range: its parameter is in [begin, end], which lies in the knot interval
 /// [knots[index], knots[index + 1]].
@@ -39,8 +39,8 @@ std::vector<double> normalised_breaks(const SurfaceDirection& direction, const s
 
 /// The blossom (polar form) of the spline on `span` with `ends` arguments at its end and the others at its begin: the
 /// Bezier control point number `ends`. Every step is a convex combination, hence stable. (Ramshaw, Blossoming, 1987.)
-Homogeneous blossom(const SurfaceDirection& direction, const KnotSpan& span, int ends,
-                    std::vector<Homogeneous> points) {
+ExtendedPoint blossom(const SurfaceDirection& direction, const KnotSpan& span, int ends,
+                      std::vector<ExtendedPoint> points) {
   const auto degree = static_cast<std::size_t>(direction.degree);
   for (std::size_t r = 1; r <= degree; ++r) {
     const Extended argument = r <= static_cast<std::size_t>(ends) ? span.end : span.begin;
@@ -56,22 +56,22 @@ Homogeneous blossom(const SurfaceDirection& direction, const KnotSpan& span, int
 }
 
 /// The degree + 1 Bezier control points on `span` of the spline curve with the given control points.
-std::vector<Homogeneous> bezier_points(const SurfaceDirection& direction, const KnotSpan& span,
-                                       const std::vector<Homogeneous>& curve) {
+std::vector<ExtendedPoint> bezier_points(const SurfaceDirection& direction, const KnotSpan& span,
+                                         const std::vector<ExtendedPoint>& curve) {
   const auto first = curve.begin() + static_cast<std::ptrdiff_t>(span.index) - direction.degree;
-  const std::vector<Homogeneous> local(first, first + direction.degree + 1);
-  std::vector<Homogeneous> result;
+  const std::vector<ExtendedPoint> local(first, first + direction.degree + 1);
+  std::vector<ExtendedPoint> result;
   for (int ends = 0; ends <= direction.degree; ++ends) result.push_back(blossom(direction, span, ends, local));
   return result;
 }
 
 /// The net in homogeneous form, one curve along u for each j. Weights that are all equal stand for 1.
-std::vector<std::vector<Homogeneous>> columns_of(const NurbsSurface& surface, bool rational) {
+std::vector<std::vector<ExtendedPoint>> columns_of(const NurbsSurface& surface, bool rational) {
   const auto count_v = static_cast<std::size_t>(surface.v.control_points);
-  std::vector<std::vector<Homogeneous>> columns(count_v);
+  std::vector<std::vector<ExtendedPoint>> columns(count_v);
   for (std::size_t k = 0; k < surface.control_points.size(); ++k) {
     const Extended weight = rational ? surface.weights[k] : 1.0;
-    Homogeneous point;
+    ExtendedPoint point;
     point << surface.control_points[k].cast<Extended>() * weight, weight;
     columns[k % count_v].push_back(point);
   }
@@ -80,10 +80,10 @@ std::vector<std::vector<Homogeneous>> columns_of(const NurbsSurface& surface, bo
 
 /// Appends the spans of one strip (one span in u); `strip` holds its control points, strip[i] a spline curve along v.
 void append_strip(const NurbsSurface& surface, const std::vector<KnotSpan>& spans_v,
-                  const std::vector<std::vector<Homogeneous>>& strip, BezierPatch& patch) {
+                  const std::vector<std::vector<ExtendedPoint>>& strip, BezierPatch& patch) {
   for (const KnotSpan& span : spans_v) {
-    for (const std::vector<Homogeneous>& curve : strip) {
-      for (const Homogeneous& point : bezier_points(surface.v, span, curve)) {
+    for (const std::vector<ExtendedPoint>& curve : strip) {
+      for (const ExtendedPoint& point : bezier_points(surface.v, span, curve)) {
         for (Eigen::Index axis = 0; axis < 4; ++axis) patch.coefficients.push_back(static_cast<double>(point[axis]));
       }
     }
@@ -103,11 +103,11 @@ BezierPatch extract_bezier(const NurbsSurface& surface) {
   patch.rational = std::any_of(surface.weights.begin(), surface.weights.end(),
                                [&](double weight) { return weight != surface.weights.front(); });
   patch.coefficients.reserve(spans_u.size() * spans_v.size() * patch.span_size());
-  const std::vector<std::vector<Homogeneous>> columns = columns_of(surface, patch.rational);
+  const std::vector<std::vector<ExtendedPoint>> columns = columns_of(surface, patch.rational);
   for (const KnotSpan& span : spans_u) {
-    std::vector<std::vector<Homogeneous>> strip(static_cast<std::size_t>(surface.u.degree) + 1);
-    for (const std::vector<Homogeneous>& column : columns) {
-      const std::vector<Homogeneous> points = bezier_points(surface.u, span, column);
+    std::vector<std::vector<ExtendedPoint>> strip(static_cast<std::size_t>(surface.u.degree) + 1);
+    for (const std::vector<ExtendedPoint>& column : columns) {
+      const std::vector<ExtendedPoint> points = bezier_points(surface.u, span, column);
       for (std::size_t i = 0; i < points.size(); ++i) strip[i].push_back(points[i]);
     }
     append_strip(surface, spans_v, strip, patch);

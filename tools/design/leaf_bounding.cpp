@@ -228,14 +228,11 @@ ImageBounds leaf_bounds(std::span<const double> coefficients, int degree_u, int 
                   at_s(0.5), at_t(0.5), h);
   ImageBounds bounds;
   set_middle(scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min), bounds);
-  constexpr double size_of_piece = 1.0 / kPieces;
-  for (int i = 0; i < kPieces; ++i) {
-    for (int j = 0; j < kPieces; ++j)
-      include_piece(Piece(coefficients, degree_u, degree_v,
-                          {at_s(i * size_of_piece), at_s((i + 1) * size_of_piece), at_t(j * size_of_piece),
-                           at_t((j + 1) * size_of_piece)}),
-                    bounds);
-  }
+  const auto piece = [&](int i, int j) {
+    const double h = 1.0 / kPieces;
+    return Piece(coefficients, degree_u, degree_v, {at_s(i * h), at_s((i + 1) * h), at_t(j * h), at_t((j + 1) * h)});
+  };
+  for (int k = 0; k < kPieces * kPieces; ++k) include_piece(piece(k / kPieces, k % kPieces), bounds);
   double size = Vec3(bounds.middle).norm();
   for (int k = 0; k < 3; ++k) size += bounds.high[k] - bounds.low[k];
   widen(bounds.low, bounds.high, kWidening * size);
