@@ -229,8 +229,8 @@ ImageBounds leaf_bounds(std::span<const double> coefficients, int degree_u, int 
   ImageBounds bounds;
   set_middle(scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min), bounds);
   const auto piece = [&](int i, int j) {
-    const double h = 1.0 / kPieces;
-    return Piece(coefficients, degree_u, degree_v, {at_s(i * h), at_s((i + 1) * h), at_t(j * h), at_t((j + 1) * h)});
+    const double d = 1.0 / kPieces;
+    return Piece(coefficients, degree_u, degree_v, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)});
   };
   for (int k = 0; k < kPieces * kPieces; ++k) include_piece(piece(k / kPieces, k % kPieces), bounds);
   double size = Vec3(bounds.middle).norm();
