@@ -120,7 +120,7 @@ double in_unit(double mm, double mm_per_unit) {
 std::string iges_real(double value) {
   std::string text = fmt::format("{}", value);
   const std::size_t exponent = std::min(text.find('e'), text.size());
-  if (text.find('.') == std::string::npos) text.insert(exponent, ".");
+  if (text.find('.') == std::string::npos) text.insert(exponent, 1, '.');
   std::replace(text.begin(), text.end(), 'e', 'D');
   return text;
 }
@@ -131,7 +131,10 @@ std::string iges_surface_parameters(const NurbsSurface& surface) {
   std::string text =
       fmt::format("128,{},{},{},{},{:d},{:d},{:d},0,0", surface.u.control_points - 1, surface.v.control_points - 1,
                   surface.u.degree, surface.v.degree, closed(surface, true), closed(surface, false), polynomial);
-  const auto append = [&](double value) { text += "," + iges_real(value); };
+  const auto append = [&](double value) {
+    text += ',';
+    text += iges_real(value);
+  };
   for (const double knot : surface.u.knots) append(knot);
   for (const double knot : surface.v.knots) append(knot);
   iges_order(surface, [&](std::size_t k) { append(surface.weights[k]); });
