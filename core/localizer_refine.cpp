@@ -72,6 +72,9 @@ Status Localizer::refine(std::uint32_t max_points) {
     refinement_ = Refinement();
     refinement_.active = true;
     regions_held_ = infeasible_ = false;
+    // What an earlier refinement found is not told beside what this one may fail to find.
+    tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0.0;
+    certificate_ = Certificate();
     redetermine_ = true;
     settle_all();
     solve();
