@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "config/fit_table.hpp"
@@ -66,7 +67,32 @@ void read_window(TableReader& table, FitSettings& settings) {
   if (const ConfigError error = parse_window(*settings.window, window)) table.fail("window", error.message);
 }
 
+void read_lock(TableReader& table, FitSettings& settings) {
+  table.read("lock", settings.lock);
+  if (!table.good() || !settings.lock) return;
+  std::uint8_t locked = 0;
+  if (const ConfigError error = parse_lock(*settings.lock, locked)) table.fail("lock", error.message);
+}
+
 }  // namespace
+
+ConfigError parse_lock(std::string_view text, std::uint8_t& locked) {
+  std::uint32_t read = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view name = trimmed(rest.substr(0, comma));
+    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+    const auto* known = std::find(kDegreesOfFreedom.begin(), kDegreesOfFreedom.end(), name);
+    if (known == kDegreesOfFreedom.end()) {
+      return {
+          fmt::format("'{}' is no degree of freedom; write some of tx,ty,tz,rx,ry,rz with commas between them", name)};
+    }
+    read |= 1U << static_cast<unsigned>(known - kDegreesOfFreedom.begin());
+  }
+  if (read == 63U) return {"all six degrees of freedom are locked; leave one free for the fit"};
+  locked = static_cast<std::uint8_t>(read);
+  return {};
+}
 
 ConfigError parse_leading_edge(std::string_view text, ParameterBox& box) {
   const ConfigError wrong{
@@ -101,6 +127,7 @@ void read_fit_table(TableReader& table, FitSettings& settings) {
   constexpr std::array<std::string_view, 2> kUnits = {"mm", "in"};
   constexpr std::array<std::string_view, 2> kRegions = {"follow", "fixed"};
   constexpr std::array<std::string_view, 2> kEdges = {"skip", "use"};
+  constexpr std::array<std::string_view, 3> kLosses = {"none", "huber", "tukey"};
   read_name(table, "mode", settings.mode, kModes);
   read_boxes(table, settings);
   table.read("tolerance", settings.tolerance, NumberRange{kSmallest, kLargest});
@@ -113,6 +140,10 @@ void read_fit_table(TableReader& table, FitSettings& settings) {
   read_name(table, "units", settings.units, kUnits);
   read_name(table, "regions", settings.regions, kRegions);
   read_name(table, "edges", settings.edges, kEdges);
+  read_lock(table, settings);
+  read_name(table, "loss", settings.loss, kLosses);
+  table.read("loss_scale", settings.loss_scale, NumberRange{kSmallest, kLargest});
+  table.read("start", settings.start);
   table.read("ignore_approach", settings.ignore_approach);
   table.finish();
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +31,10 @@ struct FitSettings {
   std::optional<std::string> units;                      ///< mm or in
   std::optional<std::string> regions;                    ///< follow or fixed
   std::optional<std::string> edges;                      ///< skip or use
+  std::optional<std::string> lock;                       ///< tx,ty,tz,rx,ry,rz: some of these, by commas
+  std::optional<std::string> loss;                       ///< none, huber or tukey
+  std::optional<double> loss_scale;                      ///< standard deviation of good points, > 0
+  std::optional<std::string> start;                      ///< file of point pairs that give the start pose
   std::optional<bool> ignore_approach;
 };
 
@@ -39,6 +45,13 @@ struct FitSettings {
 /// A leading-edge box as on the command line: `[PATCH:]u:0.4:0.6` or `[PATCH:]v:0.4:0.6`. Without PATCH it is patch 0;
 /// the other parameter runs from 0 to 1. Error: a line that names the text and the mend.
 [[nodiscard]] ConfigError parse_leading_edge(std::string_view text, ParameterBox& box);
+
+/// Of the rigid motion, in the order of their bits.
+inline constexpr std::array<std::string_view, 6> kDegreesOfFreedom = {"tx", "ty", "tz", "rx", "ry", "rz"};
+
+/// Degrees of freedom as on the command line, `tx,rz`: bits 0 to 5 for tx, ty, tz, rx, ry, rz. Error: a line that names
+/// the text and the mend.
+[[nodiscard]] ConfigError parse_lock(std::string_view text, std::uint8_t& locked);
 
 /// A window `a:b` as on the command line. Error: a line that names the text and the mend.
 [[nodiscard]] ConfigError parse_window(std::string_view text, ParameterWindow& window);

@@ -61,7 +61,10 @@ bool config_valid(const LocalizerConfig& c, std::size_t patches) {
   const bool window = c.window_low >= 0.0 && c.window_low < c.window_high && c.window_high <= 1.0;
   const bool modes =
       std::isfinite(c.ratio) && c.ratio > 0.0 && (c.mode != FitMode::constrained || std::isfinite(c.tolerance.rest_mm));
-  return sizes && lengths && window && modes && pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
+  const bool loss = std::isfinite(c.loss_scale_mm) && c.loss_scale_mm >= 0.0 &&
+                    (c.loss == Loss::none || c.mode == FitMode::least_squares);
+  return sizes && lengths && window && modes && loss && c.locked < kLockAll && pose_valid(c.start) &&
+         tolerances_valid(c.tolerance, patches);
 }
 
 }  // namespace
@@ -116,6 +119,7 @@ void Localizer::reset() {
   determination_.free_directions = Mat6::Identity();
   refinement_ = Refinement();
   sigma_ = config_.noise_floor_mm;
+  begin_loss();
   concluded_ = converged_ = has_last_ = regions_held_ = infeasible_ = false;
   tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0;
   certificate_ = Certificate();
@@ -135,6 +139,7 @@ Status Localizer::check(const ProbePoint& point) const {
   const double length = to_vec3(point.approach).norm();
   const double off = (apply(config_.start, to_vec3(point.position)) - frame_.pivot).norm();
   if (off > kFarthest * frame_.length) return Status::out_of_range;
+  if (!(point.weight > 0.0) || !std::isfinite(point.weight)) return Status::out_of_range;
   if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > 1e-3)) return Status::out_of_range;
   return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
 }
@@ -167,6 +172,7 @@ StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measuremen
   stored.position = to_vec3(point.position);
   if (config_.use_approach) stored.approach = to_vec3(point.approach);
   stored.sequence = point.sequence;
+  stored.weight = point.weight;
   stored.span = last_place_.span;
   stored.foot.u = last_place_.u;
   stored.foot.v = last_place_.v;
@@ -240,16 +246,19 @@ double Localizer::threshold() const {
 double Localizer::solve() {
   const QuadraticModel& model = current_.model;
   const Vec6 x = motion_between(model.reference, pose_, frame_);
-  if (redetermine_ || determination_.rank < 6) determination_ = determine(model, threshold());
+  if (redetermine_ || determination_.rank < 6 || config_.locked != 0) {
+    determination_ = determine(model, threshold(), free_motions(pose_, config_.locked, frame_));
+  }
   redetermine_ = false;
   Vec6 target = minimum_of(model, determination_, x);
   const double length = (target - x).norm();
   if (length > kLongestStep * frame_.length) target = x + (kLongestStep * frame_.length / length) * (target - x);
-  pose_ = moved(model.reference, target, frame_);
+  pose_ = held(moved(model.reference, target, frame_), config_.start, config_.locked);
   ++revision_;
-  const auto freedom = static_cast<double>(model.count) - static_cast<double>(determination_.rank);
+  const auto freedom =
+      static_cast<double>(model.count) - static_cast<double>(determination_.rank - determination_.locked);
   const double variance = freedom > 0.0 ? 2.0 * model.value_at(target) / freedom : 0.0;
-  sigma_ = std::max(config_.noise_floor_mm, std::sqrt(variance));
+  sigma_ = std::max(config_.noise_floor_mm, loss_ != Loss::none ? loss_scale_ : std::sqrt(variance));
   const double start = kStartUncertainty * frame_.length;
   covariance_ = unit_covariance(model, determination_, sigma_ * sigma_ / (start * start));
   last_step_ = (target - x).norm();

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/fit/bounded_fit.hpp"
+#include "core/fit/loss.hpp"
 #include "core/fit/pose.hpp"
 #include "core/fit/pose_solver.hpp"
 #include "core/fit/stored_point.hpp"
@@ -39,6 +40,11 @@ struct LocalizerConfig {
   FitMode mode = FitMode::least_squares;
   double ratio = 10;  ///< min_tolerance: tolerance elsewhere / that at the leading edge
   RegionPolicy regions = RegionPolicy::follow;
+  std::uint8_t locked = 0;  ///< degrees of freedom that keep their value of the start pose: bits of motion_lock.hpp
+  /// Robust loss of a least-squares fit. Pushes are without it while loss_scale_mm is 0: then refine() finds the scale,
+  /// 1.4826 times the median distance at the optimum.
+  Loss loss = Loss::none;
+  double loss_scale_mm = 0;  ///< standard deviation of good points
 };
 
 enum class FitStatus : std::uint8_t { underdetermined = 0, tracking = 1, converged = 2, infeasible = 3 };
@@ -61,8 +67,11 @@ struct FitReport {
   std::uint32_t points = 0;      ///< accepted so far
   std::uint32_t fitted = 0;      ///< of these, how many count in the fit
   std::uint32_t rejected = 0;
-  double rms_mm = 0;               ///< sqrt(sum d^2 / fitted)
-  double sigma_mm = 0;             ///< sqrt(sum d^2 / (fitted - 6)); 0 below 7 points
+  /// sqrt(sum w d^2 / sum w); with a loss, of 2 w rho(d) and its weights
+  double rms_mm = 0;
+  double sigma_mm =
+      0;  ///< of a distance of weight 1: sqrt(sum w d^2 / (fitted - free)), with a loss its scale; 0 below 7 points
+  double loss_scale_mm = 0;        ///< of the robust loss in use; 0: none
   double smallest_eigenvalue = 0;  ///< of the scaled information matrix per point (dimensionless)
   double gradient = 0;             ///< size of the last Newton step [mm at the design's half diagonal]: the self check
   RegionReport leading_edge, rest;
@@ -141,7 +150,7 @@ class Localizer {
     bool thorough = false;  ///< every foot of this sweep is searched globally
     bool bounded = false;   ///< beyond least squares: bounded_ moves the pose
     std::uint32_t sweeps = 0, changed = 0, unproven = 0;
-    std::uint32_t rounds = 0;  ///< in which regions followed the feet
+    std::uint32_t rounds = 0;  ///< in which regions followed the feet, or the scale of the loss the distances
     double last_value = 0;     ///< sum 1/2 d^2 of the sweep before
     std::uint32_t last_count = 0;
     Pose last_pose;
@@ -176,6 +185,9 @@ class Localizer {
   [[nodiscard]] bool finish_refine_sweep(Status& status);
   [[nodiscard]] bool retreat();
   [[nodiscard]] Status least_squares_step();
+  void begin_loss();
+  [[nodiscard]] bool adapt_loss();
+  [[nodiscard]] double robust_scale() const;
   [[nodiscard]] FitMode first_stage() const;
   void begin_bounded(FitMode mode);
   [[nodiscard]] Status bounded_step();
@@ -199,6 +211,8 @@ class Localizer {
   Determination determination_;
   Mat6 covariance_ = Mat6::Identity();  ///< of x, for unit variance
   double sigma_ = 0;
+  Loss loss_ = Loss::none;  ///< in use, with its scale
+  double loss_scale_ = 0;
   bool concluded_ = false, converged_ = false, redetermine_ = true;
   Refinement refinement_;
   BoundedFit bounded_;

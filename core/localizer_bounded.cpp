@@ -83,7 +83,7 @@ Status Localizer::bounded_step() {
   if (!succeeded(step.status)) return Status::iteration_cap;
   if (step.settled && r.thorough && r.changed == 0) return bounded_optimum();
   if (!step.from_last) r.last_pose = pose_;
-  pose_ = moved(r.last_pose, step.x, frame_);
+  pose_ = held(moved(r.last_pose, step.x, frame_), config_.start, config_.locked);
   r.last_step = step.x;
   last_step_ = step.x.norm();
   ++revision_;

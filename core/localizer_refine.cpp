@@ -17,6 +17,7 @@ void Localizer::begin_sweep() {
   filling_ = frozen_;
   filling_.model = shifted(frozen_.model, pose_, frame_);
   cursor_ = 0;
+  if (refinement_.bounded) bounded_.set_basis(free_motions(pose_, config_.locked, frame_));
 }
 
 /// The last step made the sum of squares larger: go back and take a quarter of it. False when it did not.
@@ -27,7 +28,7 @@ bool Localizer::retreat() {
       r.sweeps > 1 && model.count == r.last_count && r.last_step.norm() > kCheckedAbove * frame_.length;
   if (!comparable || model.half_square <= r.last_value * (1.0 + 1e-9)) return false;
   r.last_step *= 0.25;
-  pose_ = moved(r.last_pose, r.last_step, frame_);
+  pose_ = held(moved(r.last_pose, r.last_step, frame_), config_.start, config_.locked);
   ++revision_;
   return true;
 }
@@ -43,7 +44,7 @@ Status Localizer::least_squares_step() {
   r.last_step = motion_between(r.last_pose, pose_, frame_);
   if (!r.thorough || r.changed > 0 || step > kConvergedBelow * frame_.length) return Status::more_work;
   if (determination_.rank < 6) return Status::underdetermined;
-  if (config_.mode == FitMode::least_squares) return Status::ok;
+  if (config_.mode == FitMode::least_squares) return adapt_loss() ? Status::more_work : Status::ok;
   begin_bounded(first_stage());
   return Status::more_work;
 }
@@ -72,6 +73,7 @@ Status Localizer::refine(std::uint32_t max_points) {
     refinement_ = Refinement();
     refinement_.active = true;
     regions_held_ = infeasible_ = false;
+    begin_loss();
     // What an earlier refinement found is not told beside what this one may fail to find.
     tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0.0;
     certificate_ = Certificate();

@@ -76,8 +76,11 @@ FitReport Localizer::fit() const {
   report.revision = revision_;
   report.memory_full = accepted_ > stored_;
   const double square = 2.0 * model.value_at(motion_between(model.reference, pose_, frame_));
-  if (model.count > 0) report.rms_mm = std::sqrt(square / model.count);
-  if (model.count > 6) report.sigma_mm = std::sqrt(square / (model.count - 6));
+  const std::uint32_t unknowns = 6 - determination_.locked;
+  const bool robust = loss_ != Loss::none;
+  if (model.weight > 0.0) report.rms_mm = std::sqrt(square / model.weight);
+  if (robust) report.loss_scale_mm = loss_scale_;
+  if (model.count > unknowns) report.sigma_mm = robust ? loss_scale_ : std::sqrt(square / (model.count - unknowns));
   if (determination_.rank == 6) {
     report.covariance = pose_covariance(report.sigma_mm * report.sigma_mm * covariance_, pose_, frame_);
     report.status = !converged_ ? FitStatus::tracking : infeasible_ ? FitStatus::infeasible : FitStatus::converged;

@@ -18,7 +18,8 @@ bool Localizer::contested(const StoredPoint& point) const { return point.lead < 
 
 void Localizer::include(FitSums& sums, const StoredPoint& point, const Measurement& m, const Vec6& x) const {
   if (left_out(point, m.foot)) return;
-  sums.model.add(distance_row(m.projection, m.foot, m.r, x, frame_), x);
+  const LossTerms terms = loss_terms(loss_, loss_scale_, m.foot.distance);
+  sums.model.add(distance_row(m.projection, m.foot, m.r, x, frame_), x, point.weight, terms);
   const Region region = regions_held_ ? point.region : region_at(config_.tolerance, m.foot.patch, m.foot.u, m.foot.v);
   sums.regions[static_cast<std::size_t>(region)].add(m.foot.distance, point.sequence);
 }

@@ -8,6 +8,8 @@
 #include <functional>
 #include <tuple>
 
+#include "tools/start_pairs.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -65,8 +67,8 @@ void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
   if (!(map.transition >= 0.0) || map.transition > 1.0)
     throw DesignError(fmt::format("--transition: {} is not a width in patch parameters, 0 to 1", map.transition));
   if (settings.tolerance && map.box_count == 0) {
-    plan.note = fmt::format("no --leading-edge is given: the whole blade is held to the rest tolerance, {:g} {}",
-                            map.rest_mm / plan.mm_per_unit, plan.units);
+    plan.note += fmt::format("no --leading-edge is given: the whole blade is held to the rest tolerance, {:g} {}\n",
+                             map.rest_mm / plan.mm_per_unit, plan.units);
   }
 }
 
@@ -91,6 +93,25 @@ void plan_mode(const FitSettings& settings, FitPlan& plan) {
   const std::string edges = settings.edges.value_or("skip");
   if (edges != "skip" && edges != "use") throw DesignError(fmt::format("--edges {}: give skip or use", edges));
   plan.localizer.edges = edges == "use" ? EdgePolicy::use : EdgePolicy::skip;
+  if (settings.lock) {
+    if (const ConfigError error = parse_lock(*settings.lock, plan.localizer.locked))
+      throw DesignError("--lock: " + error.message);
+  }
+}
+
+void plan_loss(const FitSettings& settings, FitPlan& plan) {
+  const std::string loss = settings.loss.value_or("none");
+  if (loss != "none" && loss != "huber" && loss != "tukey")
+    throw DesignError(fmt::format("--loss {}: give none, huber or tukey", loss));
+  if (loss == "none") {
+    if (settings.loss_scale) throw DesignError("--loss-scale: there is no loss; add --loss huber or tukey");
+    return;
+  }
+  if (plan.localizer.mode != FitMode::least_squares)
+    throw DesignError(fmt::format("--loss {}: only for --mode least_squares; leave it out", loss));
+  plan.localizer.loss = loss == "huber" ? Loss::huber : Loss::tukey;
+  if (settings.loss_scale)
+    plan.localizer.loss_scale_mm = positive(*settings.loss_scale, "--loss-scale") * plan.mm_per_unit;
 }
 
 /// What a mode needs beside its name.
@@ -109,6 +130,14 @@ void check_mode(const FitPlan& plan) {
     throw DesignError(fmt::format(
         "--rest-tolerance: it is {:g} times --tolerance; min_tolerance needs the wider one elsewhere", fit.ratio));
   }
+}
+
+void plan_start(const std::string& path, FitPlan& plan) {
+  const StartPairs pairs = read_start_pairs(path, plan.mm_per_unit);
+  plan.localizer.start = pairs.pose;
+  plan.note += fmt::format("Start: {} point pairs, rms {:.4g} {}, largest {:.4g} {} at {}\n", pairs.count,
+                           pairs.rms_mm / plan.mm_per_unit, plan.units, pairs.worst_mm / plan.mm_per_unit, plan.units,
+                           pairs.worst_name);
 }
 
 void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan& plan) {
@@ -155,17 +184,40 @@ void add_fit_options(CLI::App& command, FitSettings& flags) {
       ->group(group);
   add(command, "--edges", flags.edges, "skip (default) or use points whose foot is on an edge of the design")
       ->group(group);
+  add(command, "--lock", flags.lock,
+      "tx,ty,tz,rx,ry,rz: degrees of freedom that keep their start value, for example tx,rz; rx, ry, rz hold the "
+      "angles psi, theta, phi of C = Rx(psi) Ry(theta) Rz(phi)")
+      ->group(group);
+  add(command, "--loss", flags.loss,
+      "none (default), huber or tukey: robust least squares, in which aberrant points pull less (huber) or not at all "
+      "(tukey)")
+      ->group(group);
+  add(command, "--loss-scale", flags.loss_scale,
+      "standard deviation of good points, in --units (default: 1.4826 times the median distance)")
+      ->group(group);
+  add(command, "--start", flags.start,
+      "CSV file of at least 3 point pairs, columns [name,]x,y,z,design_x,design_y,design_z in --units: the pose that "
+      "brings them together is where the fit starts")
+      ->group(group);
   command
       .add_flag_callback(
           "--ignore-approach", [&flags] { flags.ignore_approach = true; }, "do not use the probing directions i,j,k")
       ->group(group);
 }
 
+std::vector<std::string> names_of_locked(std::uint8_t locked) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < kDegreesOfFreedom.size(); ++k) {
+    if ((locked >> k & 1U) != 0) names.emplace_back(kDegreesOfFreedom[k]);
+  }
+  return names;
+}
+
 FitSettings merged(const FitSettings& flags, const FitSettings& file) {
   using S = FitSettings;
   constexpr std::tuple members(&S::mode, &S::leading_edge, &S::tolerance, &S::rest_tolerance, &S::ratio, &S::transition,
-                               &S::window, &S::outward, &S::probe_radius, &S::units, &S::regions, &S::edges,
-                               &S::ignore_approach);
+                               &S::window, &S::outward, &S::probe_radius, &S::units, &S::regions, &S::edges, &S::lock,
+                               &S::loss, &S::loss_scale, &S::start, &S::ignore_approach);
   FitSettings out = flags;
   const auto fill = [&](auto member) {
     if (!(out.*member)) out.*member = file.*member;
@@ -183,6 +235,8 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   plan_boxes(settings, design, plan.localizer.tolerance);
   plan_tolerance(settings, plan);
   check_mode(plan);
+  plan_loss(settings, plan);
+  if (settings.start) plan_start(*settings.start, plan);
   const double radius = settings.probe_radius.value_or(0.0);
   if (!(radius >= 0.0) || !std::isfinite(radius))
     throw DesignError(fmt::format("--probe-radius: {} is not a radius; give 0 or more", radius));

@@ -1,6 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "config/fit_settings.hpp"
 #include "core/localizer.hpp"
@@ -22,8 +23,11 @@ struct FitPlan {
   std::string units = "mm";            ///< of lengths on the command line and in results
   double mm_per_unit = 1.0;
   LocalizerConfig localizer;
-  std::string note;  ///< a line the user should read; empty = none
+  std::string note;  ///< lines the user should read; empty = none
 };
+
+/// Names of the degrees of freedom in a set of bits of motion_lock.hpp: tx, ry ...
+[[nodiscard]] std::vector<std::string> names_of_locked(std::uint8_t locked);
 
 /// Where the design's outward side comes from. Throws DesignError for a text that is not +, - or auto.
 [[nodiscard]] OutwardOption outward_of(const FitSettings& settings);

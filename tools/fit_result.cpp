@@ -109,6 +109,7 @@ FitResult fit_points(const DesignImage& design, const FitPlan& plan, const std::
   result.status = status_of(result.report);
   result.verdicts = verdicts_of(localizer, points);
   sum_up(result, before);
+  result.aberrant = aberrant_points(result.report, plan.localizer, result.verdicts, points);
   if (result.all.count < 6) {
     throw DesignError(
         fmt::format("{}: {} points count in the fit, at least 6 are needed ({} of {} are outside the window or at an "
@@ -127,6 +128,7 @@ FitResult result_of(const DesignImage& design, const FitPlan& plan, const std::v
   result.status = status_of(report);
   result.verdicts = std::move(verdicts);
   sum_up(result, verdicts_of(start, points));
+  result.aberrant = aberrant_points(report, plan.localizer, result.verdicts, points);
   return result;
 }
 

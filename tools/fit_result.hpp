@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/localizer.hpp"
+#include "tools/aberrant_points.hpp"
 #include "tools/fit_options.hpp"
 
 namespace bladefit {
@@ -19,6 +20,7 @@ struct FitResult {
   FitReport report;
   std::vector<Verdict> verdicts;  ///< final ones, rising sequence; index in the points file = sequence - 1
   BeforeAfter all, leading_edge, rest;
+  AberrantPoints aberrant;
 };
 
 /// The batch fit of `points`: all are projected at the start pose, then refined until every foot is proven.

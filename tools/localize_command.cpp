@@ -85,7 +85,7 @@ int localize(const LocalizeFlags& flags) {
   const bool json_on_stdout = flags.json == "-";
   std::FILE* words = json_on_stdout ? stderr : stdout;
   tell_notes(loaded, words);
-  if (!plan.note.empty()) fmt::print(words, "{}\n", plan.note);
+  if (!plan.note.empty()) fmt::print(words, "{}", plan.note);
   const FitResult result = fit_points(design, plan, points, flags.points);
   const std::string json = result_json(result, plan);
   if (json_on_stdout) {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,29 @@ std::string worst_list(const FitResult& result, double tip, const FitPlan& plan)
   return text;
 }
 
+/// Settings that a reader of the figures must know, and the points that do not belong to the others.
+std::string fit_remarks(const FitResult& result, const FitPlan& plan) {
+  std::string text;
+  if (plan.localizer.locked != 0)
+    text += fmt::format("Locked at the start value: {}\n", fmt::join(names_of_locked(plan.localizer.locked), ", "));
+  if (plan.localizer.loss != Loss::none) {
+    text += fmt::format("Robust loss {}, standard deviation of good points {:.4g} {}\n",
+                        plan.localizer.loss == Loss::huber ? "huber" : "tukey",
+                        result.report.loss_scale_mm / plan.mm_per_unit, plan.units);
+  }
+  const AberrantPoints& aberrant = result.aberrant;
+  if (aberrant.points.empty()) return text;
+  text += fmt::format("{} {} not belong to the others (beyond {:.1f} standard deviations of {:.4g} {}):",
+                      aberrant.points.size(), aberrant.points.size() == 1 ? "point does" : "points do", aberrant.limit,
+                      aberrant.scale_mm / plan.mm_per_unit, plan.units);
+  for (std::size_t k = 0; k < std::min(aberrant.points.size(), kListed); ++k) {
+    const AberrantPoint& p = aberrant.points[k];
+    text += fmt::format("{} {} ({:+.3f} {}, {:+.1f})", k == 0 ? "" : ",", p.sequence, p.distance_mm / plan.mm_per_unit,
+                        plan.units, p.studentized);
+  }
+  return text + (aberrant.points.size() > kListed ? " ...\n" : "\n");
+}
+
 /// "points 12, 81 and 407".
 std::string point_list(const Certificate& certificate) {
   std::string text = "points ";
@@ -110,7 +134,7 @@ std::string operator_summary(const FitResult& result, const FitPlan& plan, const
                       result.all.rms_after / unit, plan.units, result.all.rms_before / unit, plan.units);
   text += fmt::format("Pose: tx {:.5f} ty {:.5f} tz {:.5f} {}; psi {:.7f} theta {:.7f} phi {:.7f} rad\n", t[0], t[1],
                       t[2], plan.units, e.psi, e.theta, e.phi);
-  text += optimum_line(result, plan);
+  text += optimum_line(result, plan) + fit_remarks(result, plan);
   if (result.report.unproven > 0)
     text += fmt::format("{} feet could not be proven the nearest: do not rely on this fit\n", result.report.unproven);
   if (result.leading_edge.count > 0) {

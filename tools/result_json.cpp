@@ -86,6 +86,20 @@ Json certificate_json(const Certificate& certificate) {
   return {{"points", points}, {"multipliers", multipliers}, {"signs", signs}};
 }
 
+Json aberrant_json(const AberrantPoints& aberrant, double mm_per_unit) {
+  Json points = Json::array();
+  for (const AberrantPoint& p : aberrant.points) {
+    points.push_back(
+        {{"index", p.sequence - 1}, {"distance", p.distance_mm / mm_per_unit}, {"studentized", p.studentized}});
+  }
+  return {{"limit", aberrant.limit}, {"scale", aberrant.scale_mm / mm_per_unit}, {"points", points}};
+}
+
+Json loss_json(const FitReport& report, Loss loss, double mm_per_unit) {
+  if (loss == Loss::none) return nullptr;
+  return {{"name", loss == Loss::huber ? "huber" : "tukey"}, {"scale", report.loss_scale_mm / mm_per_unit}};
+}
+
 Json points_json(const std::vector<Verdict>& verdicts, double mm_per_unit) {
   Json points = Json::array();
   for (const Verdict& v : verdicts) {
@@ -127,6 +141,9 @@ std::string result_json(const FitResult& result, const FitPlan& plan) {
   json["regions"]["leading_edge"]["boxes"] = boxes_json(tolerance);
   json["tolerance_factor"] = factor > 0.0 ? Json(factor / unit) : Json(nullptr);
   json["certificate"] = certificate_json(result.report.certificate);
+  json["locked"] = names_of_locked(plan.localizer.locked);
+  json["loss"] = loss_json(result.report, plan.localizer.loss, unit);
+  json["aberrant"] = result.aberrant.limit > 0.0 ? aberrant_json(result.aberrant, unit) : Json(nullptr);
   json["points"] = points_json(result.verdicts, unit);
   return json.dump(1) + "\n";
 }

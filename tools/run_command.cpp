@@ -127,7 +127,7 @@ int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
   std::FILE* const words = plan.json == "-" ? stderr : stdout;
   tell_notes(plan.design, words);
-  if (!plan.fit.note.empty()) fmt::print(words, "{}\n", plan.fit.note);
+  if (!plan.fit.note.empty()) fmt::print(words, "{}", plan.fit.note);
 
   Notices notices(plan.headless);
   const std::unique_ptr<ProbeSource> source = make_source(plan.source);

@@ -45,14 +45,20 @@ double BoundedFit::set_weight(std::uint32_t i, double weight) {
 
 double BoundedFit::weight(std::uint32_t i) const { return column(kWeight)[i]; }
 
+void BoundedFit::set_basis(const MotionBasis& basis) { basis_ = basis; }
+
 void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
-  for (int k = 0; k < 6; ++k) column(k)[i] = row.gradient[k];
+  const Vec6 gradient = basis_.free == 6 ? row.gradient : Vec6(basis_.directions.transpose() * row.gradient);
+  for (int k = 0; k < 6; ++k) column(k)[i] = gradient[k];
   const double half = mode_ == FitMode::constrained ? column(kWeight)[i] : 0.0;
   column(kLower)[i] = -half - row.distance;
   column(kUpper)[i] = half - row.distance;
   for (int k = 0; k < active_.count; ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
-    if (entry.index == static_cast<int>(i)) curvature_ += entry.multiplier * sign_of(entry) * row.bend;
+    if (entry.index == static_cast<int>(i)) {
+      const Mat6& basis = basis_.directions;
+      curvature_ += entry.multiplier * sign_of(entry) * (basis.transpose() * row.bend * basis);
+    }
   }
 }
 
@@ -96,8 +102,10 @@ Constraints BoundedFit::constraints() const {
             nullptr,
             -1,
             -1};
-  c.lower.head<6>().setConstant(-trust_);
-  c.upper.head<6>().setConstant(trust_);
+  for (int k = 0; k < 6; ++k) {
+    c.upper[k] = k < basis_.free ? trust_ : 0.0;
+    c.lower[k] = -c.upper[k];
+  }
   return c;
 }
 
@@ -156,9 +164,11 @@ ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
 ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
   Mat8 hessian = Mat8::Identity();
   Vec8 gradient = Vec8::Zero();
-  gradient.head<6>() = model.gradient;
-  const Mat6 exact = model.gauss + model.bend + curvature_;
-  hessian.topLeftCorner<6, 6>() = Cholesky(exact).positive_definite() ? exact : model.gauss;
+  const Mat6& basis = basis_.directions;
+  gradient.head<6>() = basis.transpose() * model.gradient;
+  const Mat6 gauss = basis.transpose() * model.gauss * basis;
+  const Mat6 exact = basis.transpose() * (model.gauss + model.bend) * basis + curvature_;
+  hessian.topLeftCorner<6, 6>() = Cholesky(exact).positive_definite() ? exact : gauss;
   return minimize_quadratic(hessian, gradient, constraints(), active_);
 }
 
@@ -201,7 +211,7 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
   stationarity_ = result.residuals.stationarity;
   for (int k = 0; k < active_.count; ++k)
     penalty_ = std::max(penalty_, 10.0 * active_.entries[static_cast<std::size_t>(k)].multiplier);
-  step.x = result.x.head<6>();
+  step.x = basis_.directions * result.x.head<6>();
   step.settled = step.x.norm() <= kSettledBelow * reach_;
   has_last_ = true;
   last_merit_ = mode_ == FitMode::constrained ? merit(model) : present;

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/fit/active_set.hpp"
 #include "core/fit/fit_mode.hpp"
+#include "core/fit/motion_lock.hpp"
 #include "core/fit/quadratic_model.hpp"
 
 namespace bladefit {
@@ -25,6 +26,8 @@ class BoundedFit {
   /// Returns how much it changed, relative to the new one.
   double set_weight(std::uint32_t i, double weight);
   [[nodiscard]] double weight(std::uint32_t i) const;
+  /// Steps go along the free directions of the basis only. Given before the rows of a pose.
+  void set_basis(const MotionBasis& basis);
   /// The row of point i at the present pose.
   void set_row(std::uint32_t i, const DistanceRow& row);
   /// Point i does not count.
@@ -63,6 +66,7 @@ class BoundedFit {
   double* memory_ = nullptr;
   std::uint32_t capacity_ = 0, count_ = 0;
   FitMode mode_ = FitMode::minimax;
+  MotionBasis basis_;             ///< the unknowns are y in x = directions y
   double reach_ = 0, trust_ = 0;  ///< trust: how far the expansions have held [mm]
   ActiveSet active_;
   Mat6 curvature_ = Mat6::Zero();  ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points

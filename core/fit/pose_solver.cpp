@@ -7,20 +7,30 @@
 
 namespace bladefit {
 
-Determination determine(const QuadraticModel& model, double threshold) {
-  const SymmetricEigen eigen = symmetric_eigen(model.gauss);
+Determination determine(const QuadraticModel& model, double threshold, const MotionBasis& basis) {
   Determination out;
+  Mat6 information = model.gauss;
+  // Locked directions get an eigenvalue above all others, so that no eigenvector mixes them with free ones.
+  const double above = 4.0 * (model.gauss.trace() + threshold + 1.0);
+  if (basis.free < 6) {
+    out.unlocked = basis.projector();
+    information = out.unlocked * model.gauss * out.unlocked + above * (Mat6::Identity() - out.unlocked);
+    out.locked = static_cast<std::uint32_t>(6 - basis.free);
+  }
+  const SymmetricEigen eigen = symmetric_eigen(information);
   int free = 0;
   for (int k = 0; k < 6; ++k) {
     const Vec6 direction = eigen.vectors.col(k);
-    if (model.count > 0 && eigen.values[k] >= threshold) {
+    if (basis.free < 6 && eigen.values[k] > 0.5 * above) {
+      ++out.rank;
+    } else if (model.count > 0 && eigen.values[k] >= threshold) {
       out.projector += direction * direction.transpose();
       ++out.rank;
     } else {
       out.free_directions.col(free++) = direction;
     }
   }
-  if (out.rank == 6) out.projector.setIdentity();
+  if (out.rank == 6) out.projector = out.unlocked;
   out.smallest = model.count > 0 ? std::max(0.0, eigen.values[0]) / static_cast<double>(model.count) : 0.0;
   return out;
 }
@@ -38,8 +48,14 @@ Vec6 minimum_of(const QuadraticModel& model, const Determination& determination,
 }
 
 Mat6 unit_covariance(const QuadraticModel& model, const Determination& determination, double ridge) {
-  const Cholesky information(model.gauss + ridge * (Mat6::Identity() - determination.projector));
-  return information.positive_definite() ? information.inverse() : Mat6(Mat6::Identity() / ridge);
+  const Mat6& unlocked = determination.unlocked;
+  const Mat6 rest = ridge * (Mat6::Identity() - determination.projector);
+  if (determination.locked == 0) {
+    const Cholesky information(model.gauss + rest);
+    return information.positive_definite() ? information.inverse() : Mat6(Mat6::Identity() / ridge);
+  }
+  const Cholesky information(unlocked * model.gauss * unlocked + rest);
+  return information.positive_definite() ? Mat6(unlocked * information.inverse() * unlocked) : Mat6(unlocked / ridge);
 }
 
 Mat6 pose_covariance(const Mat6& covariance_of_x, const Pose& pose, const MotionFrame& frame) {

@@ -117,14 +117,16 @@ DistanceRow distance_row(const Projection& projection, const Foot& foot, const V
   return row;
 }
 
-void QuadraticModel::add(const DistanceRow& row, const Vec6& x) {
-  const double d = row.distance;
-  add_outer(gauss, 1.0, row.gradient, row.gradient);
-  const Vec6 bend_x = d * (row.bend * x);
+void QuadraticModel::add(const DistanceRow& row, const Vec6& x, double w, const LossTerms& terms) {
+  const double slope = w * terms.slope, curvature = w * terms.curvature;
+  add_outer(gauss, w * terms.weight, row.gradient, row.gradient);
+  const Vec6 bend_x = slope * (row.bend * x);
   const double along = row.gradient.dot(x);
-  bend += d * row.bend;
-  gradient += (d - along) * row.gradient - bend_x;
-  half_square += 0.5 * (d - along) * (d - along) + 0.5 * x.dot(bend_x);
+  bend += slope * row.bend;
+  if (terms.curvature != terms.weight) add_outer(bend, curvature - w * terms.weight, row.gradient, row.gradient);
+  gradient += (slope - curvature * along) * row.gradient - bend_x;
+  half_square += w * terms.value - slope * along + 0.5 * curvature * along * along + 0.5 * x.dot(bend_x);
+  weight += w * terms.weight;
   ++count;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "core/fit/loss.hpp"
 #include "core/fit/pose.hpp"
 #include "core/geometry/local_projection.hpp"
 
@@ -29,18 +30,19 @@ struct DistanceRow {
 [[nodiscard]] DistanceRow distance_row(const Projection& projection, const Foot& foot, const Vec3& r, const Vec6& x,
                                        const MotionFrame& frame);
 
-/// Sum of 1/2 d_i^2 as a quadratic function of x about a reference pose.
+/// Sum of w_i rho(d_i), rho = 1/2 d^2 in least squares, as a quadratic function of x about a reference pose.
 struct QuadraticModel {
   Pose reference;
-  Mat6 gauss = Mat6::Zero();     ///< sum J J'
-  Mat6 bend = Mat6::Zero();      ///< sum d * d^2 d/dx^2: gauss + bend is the exact Hessian
+  Mat6 gauss = Mat6::Zero();     ///< sum w J J', each w times the loss's weight
+  Mat6 bend = Mat6::Zero();      ///< the rest of the exact Hessian: in least squares sum w d * d^2 d/dx^2
   Vec6 gradient = Vec6::Zero();  ///< at x = 0
-  double half_square = 0;        ///< sum 1/2 d^2 at x = 0
+  double half_square = 0;        ///< the sum at x = 0
+  double weight = 0;             ///< sum of w times the loss's weight
   std::uint32_t count = 0;
 
-  /// Adds a row taken at `x`.
-  void add(const DistanceRow& row, const Vec6& x);
-  /// Value of sum 1/2 d^2 predicted at x, never below 0.
+  /// Adds a row of weight w taken at `x`, with the terms of its distance.
+  void add(const DistanceRow& row, const Vec6& x, double w, const LossTerms& terms);
+  /// Value of the sum predicted at x, never below 0.
   [[nodiscard]] double value_at(const Vec6& x) const;
 };
 

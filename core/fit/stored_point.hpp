@@ -11,6 +11,7 @@ namespace bladefit {
 struct StoredPoint {
   Vec3 position = Vec3::Zero(), approach = Vec3::Zero();  ///< machine coordinates
   Vec3 searched_at = Vec3::Zero();  ///< where it stood [design coordinates] when its foot was last searched globally
+  double weight = 1;                ///< in the least-squares objective
   double lead = 0;                  ///< how much farther every other local minimum was there [mm]
   Foot foot;                        ///< at the pose it was last projected at
   std::uint32_t span = 0;           ///< of the foot

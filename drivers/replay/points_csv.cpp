@@ -14,10 +14,10 @@
 namespace bladefit {
 namespace {
 
-constexpr std::array<std::string_view, 7> kColumns = {"x", "y", "z", "i", "j", "k", "path"};
-constexpr std::size_t kPathColumn = 6;
+constexpr std::array<std::string_view, 8> kColumns = {"x", "y", "z", "i", "j", "k", "path", "weight"};
+constexpr std::size_t kPathColumn = 6, kWeightColumn = 7;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 30U;
-constexpr std::string_view kHeaderMend = "the first line must name the columns: x,y,z[,i,j,k][,path]";
+constexpr std::string_view kHeaderMend = "the first line must name the columns: x,y,z[,i,j,k][,path][,weight]";
 
 /// Column of the file -> index in kColumns.
 using Header = std::vector<std::size_t>;
@@ -49,6 +49,15 @@ std::string parse_path(const CsvPlace& place, std::string_view cell, ProbePoint&
   return {};
 }
 
+std::string parse_weight(const CsvPlace& place, std::string_view cell, ProbePoint& point) {
+  const std::optional<double> weight = parse_finite(cell);
+  if (!weight || !(*weight > 0.0))
+    return place.say(
+        fmt::format("column weight: {} is not a number above 0; leave points out by --subset", quoted(cell)));
+  point.weight = *weight;
+  return {};
+}
+
 std::string parse_coordinate(const CsvPlace& place, std::string_view cell, std::size_t column, double mm_per_unit,
                              ProbePoint& point) {
   const std::optional<double> value = parse_finite(cell);
@@ -72,8 +81,9 @@ std::string parse_point(const CsvPlace& place, std::string_view line, const Head
     return place.say(fmt::format("{} columns where the first line names {}", cells.size(), header.size()));
   }
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    std::string error = header[cell] == kPathColumn
-                            ? parse_path(place, cells[cell], point)
+    std::string error = header[cell] == kPathColumn ? parse_path(place, cells[cell], point)
+                        : header[cell] == kWeightColumn
+                            ? parse_weight(place, cells[cell], point)
                             : parse_coordinate(place, cells[cell], header[cell], mm_per_unit, point);
     if (!error.empty()) return error;
   }

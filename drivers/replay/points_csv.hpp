@@ -17,7 +17,8 @@ struct PointsFile {
 
 /// Reads points from `text`, the content of the file `name` (used in errors only).
 /// The first line that is neither empty nor a comment (#) names the columns, in any order: x,y,z, optionally i,j,k
-/// (unit vector from the probe to the material, 0,0,0 = unknown) and path (0..65535). Lengths are multiplied by
+/// (unit vector from the probe to the material, 0,0,0 = unknown), path (0..65535) and weight (of the squared distance
+/// in the least-squares objective, above 0; 1 where it is not given). Lengths are multiplied by
 /// `mm_per_unit`. Numbers have a decimal point whatever the locale. Directions whose length is 1 within 1e-3 are
 /// normalised, others are errors. Cost: linear in the size.
 [[nodiscard]] PointsFile parse_points_csv(std::string_view text, std::string_view name, double mm_per_unit);

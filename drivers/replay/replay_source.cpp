@@ -12,13 +12,14 @@
 namespace bladefit {
 namespace {
 
-/// FNV-1a over the positions and paths; never 0.
+/// FNV-1a over the positions, directions, weights and paths; never 0.
 std::uint32_t digest(const std::vector<ProbePoint>& points) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3U; };
   for (const ProbePoint& point : points) {
     for (const double coordinate : point.position) add(std::bit_cast<std::uint64_t>(coordinate));
     for (const double component : point.approach) add(std::bit_cast<std::uint64_t>(component));
+    add(std::bit_cast<std::uint64_t>(point.weight));
     add(point.path);
   }
   const auto folded = static_cast<std::uint32_t>(hash ^ (hash >> 32U));

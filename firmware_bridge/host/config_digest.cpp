@@ -50,6 +50,12 @@ std::uint64_t config_digest(const LocalizerConfig& config, std::uint32_t path_re
   digest.add(config.determined_mm);
   digest.add(config.window_low);
   digest.add(config.window_high);
+  digest.add(static_cast<std::uint8_t>(config.mode));
+  digest.add(config.ratio);
+  digest.add(static_cast<std::uint8_t>(config.regions));
+  digest.add(config.locked);
+  digest.add(static_cast<std::uint8_t>(config.loss));
+  digest.add(config.loss_scale_mm);
   for (const double entry : config.start.rotation.reshaped()) digest.add(entry);
   for (const double entry : config.start.translation) digest.add(entry);
   add_tolerance(config.tolerance, digest);

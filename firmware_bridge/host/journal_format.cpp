@@ -28,7 +28,8 @@ bool header_is_whole(const JournalHeader& header) {
 
 JournalRecord make_journal_record(const StreamEvent& event, std::uint32_t place) {
   const ProbePoint& point = event.point;
-  JournalRecord record{point.sequence, point.path, event.kind, 0, point.position, point.approach, point.time_us, 0, 0};
+  JournalRecord record{point.sequence, point.path,   event.kind,    0, point.position,
+                       point.approach, point.weight, point.time_us, 0, 0};
   record.crc = crc_before(record, offsetof(JournalRecord, crc), place);
   return record;
 }
@@ -38,7 +39,8 @@ bool record_is_whole(const JournalRecord& record, std::uint32_t place) {
 }
 
 StreamEvent event_of(const JournalRecord& record) {
-  return {record.kind, {record.sequence, record.path, record.position, record.approach, record.time_us}};
+  return {record.kind,
+          {record.sequence, record.path, record.position, record.approach, record.weight, record.time_us}};
 }
 
 }  // namespace bladefit

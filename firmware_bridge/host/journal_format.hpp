@@ -11,7 +11,7 @@ namespace bladefit {
 
 /// Journal of a session, little endian: one JournalHeader, then JournalRecords to the end of the file.
 inline constexpr std::array<char, 8> kJournalMagic = {'B', 'F', 'J', 'R', 'N', 'L', '\r', '\n'};
-inline constexpr std::uint32_t kJournalVersion = 1;
+inline constexpr std::uint32_t kJournalVersion = 2;
 
 /// What a session is bound to: its points mean something for this design and these settings only.
 struct SessionIdentity {
@@ -35,12 +35,13 @@ struct JournalRecord {
   std::uint8_t reserved;
   std::array<double, 3> position;  ///< [mm]
   std::array<double, 3> approach;
+  double weight;
   std::int64_t time_us;
   std::uint32_t reserved_too;
   std::uint32_t crc;  ///< CRC-32 of the bytes before it, seeded with the record's place in the file (the first is 1)
 };
 
-static_assert(sizeof(JournalHeader) == 32 && sizeof(JournalRecord) == 72);
+static_assert(sizeof(JournalHeader) == 32 && sizeof(JournalRecord) == 80);
 static_assert(std::endian::native == std::endian::little, "the journal is written in the byte order of the host");
 
 [[nodiscard]] JournalHeader make_journal_header(const SessionIdentity& identity, std::uint32_t run_id);

@@ -27,8 +27,10 @@ void count() {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
-// The sanitizers bring their own allocator, which reports what it is asked for.
-#include <sanitizer/allocator_interface.h>
+// The sanitizers bring their own allocator, which reports what it is asked for. Declared here, since GCC comes without
+// the header sanitizer/allocator_interface.h.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*malloc_hook)(const volatile void*, std::size_t),
+                                                         void (*free_hook)(const volatile void*));
 
 namespace {
 const int installed = __sanitizer_install_malloc_and_free_hooks([](const volatile void*, std::size_t) { count(); },

@@ -195,7 +195,7 @@ RC_GTEST_PROP(QuadraticModel, ReproducesARowWhereItWasTaken, ()) {
   const DistanceRow row = random_row(random);
   const Vec6 x = Vec6::NullaryExpr([&] { return uniform(random, -0.5, 0.5); });
   QuadraticModel model;
-  model.add(row, x);
+  model.add(row, x, 1.0, loss_terms(Loss::none, 1.0, row.distance));
   RC_ASSERT(std::abs(model.value_at(x) - 0.5 * row.distance * row.distance) < 1e-13);
   const Vec6 slope = model.gradient + (model.gauss + model.bend) * x;
   RC_ASSERT((slope - row.distance * row.gradient).norm() < 1e-13);
@@ -209,7 +209,10 @@ RC_GTEST_PROP(QuadraticModel, ShiftedIsTheSameFunction, ()) {
   const double turn = random() % 2 == 0 ? 0.0 : 1e-6;
   QuadraticModel model;
   model.reference = {rotation_exp(random_direction_in_space(random)), Vec3(1, 2, 3)};
-  for (int k = 0; k < 10; ++k) model.add(random_row(random), Vec6::Zero());
+  for (int k = 0; k < 10; ++k) {
+    const DistanceRow row = random_row(random);
+    model.add(row, Vec6::Zero(), 1.0, loss_terms(Loss::none, 1.0, row.distance));
+  }
   Vec6 shift, y;
   shift << turn * frame.length * random_direction_in_space(random), 0.1 * random_direction_in_space(random);
   y << Vec3::Zero(), 0.1 * random_direction_in_space(random);

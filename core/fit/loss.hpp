@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+
+namespace bladefit {
+
+/// How a distance counts in a least-squares fit.
+enum class Loss : std::uint8_t {
+  none = 0,   ///< 1/2 d^2
+  huber = 1,  ///< |d| beyond 1.345 scales: an aberrant point pulls no harder than that
+  tukey = 2   ///< constant beyond 4.685 scales: an aberrant point does not pull at all
+};
+
+/// One distance in the sum, with the derivatives that Newton's method needs.
+struct LossTerms {
+  double value = 0;      ///< rho(d) [mm^2]
+  double slope = 0;      ///< psi = d rho / dd [mm]
+  double curvature = 1;  ///< d psi / dd
+  double weight = 1;     ///< psi / d: of the point in the fit, 0..1
+};
+
+/// Terms of the distance `d` with the standard deviation `scale` > 0 of good points [mm]. The constants give 95 % of
+/// the efficiency of least squares on normal errors (Huber 1964; Beaton and Tukey 1974).
+[[nodiscard]] LossTerms loss_terms(Loss loss, double scale, double d);
+
+}  // namespace bladefit
