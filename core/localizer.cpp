@@ -120,6 +120,7 @@ void Localizer::reset() {
   refinement_ = Refinement();
   sigma_ = config_.noise_floor_mm;
   begin_loss();
+  stop_trackers();
   concluded_ = converged_ = has_last_ = regions_held_ = infeasible_ = false;
   tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0;
   certificate_ = Certificate();
@@ -207,6 +208,8 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
 
   StoredPoint& own = place != nullptr ? *place : passing;
   if (place == nullptr) note(passing, measurement);
+  if (place != nullptr && tracker_.active()) look_at(static_cast<std::uint32_t>(place - points_), measure(own, pose_));
+  follow_bounds();
   note(own, measure(own, pose_));
   judge(own);
   own.told_state = own.state;
@@ -220,6 +223,7 @@ Status Localizer::stage(const ProbePoint& point) {
   if (const Status status = check(point); status != Status::ok) return status;
   if (stored_ == config_.capacity) return Status::out_of_range;
   refinement_.active = converged_ = regions_held_ = infeasible_ = false;
+  stop_trackers();
   redetermine_ = true;
   Measurement measurement;
   const StoredPoint passing = admitted(point, measurement);
@@ -253,8 +257,10 @@ double Localizer::solve() {
   Vec6 target = minimum_of(model, determination_, x);
   const double length = (target - x).norm();
   if (length > kLongestStep * frame_.length) target = x + (kLongestStep * frame_.length / length) * (target - x);
-  pose_ = held(moved(model.reference, target, frame_), config_.start, config_.locked);
-  ++revision_;
+  if (!tracker_.active()) {
+    pose_ = held(moved(model.reference, target, frame_), config_.start, config_.locked);
+    ++revision_;
+  }
   const auto freedom =
       static_cast<double>(model.count) - static_cast<double>(determination_.rank - determination_.locked);
   const double variance = freedom > 0.0 ? 2.0 * model.value_at(target) / freedom : 0.0;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/fit/bound_tracker.hpp"
 #include "core/fit/bounded_fit.hpp"
 #include "core/fit/loss.hpp"
 #include "core/fit/pose.hpp"
@@ -36,7 +37,8 @@ struct LocalizerConfig {
   double window_low = 0;          ///< points whose foot at the start pose has u or v below this are rejected
   double window_high = 1;         ///< or above this (thesis 7: 0.05 and 0.95)
   ToleranceMap tolerance;
-  /// While points come in the pose is that of least squares; refine() goes on to the optimum of the mode from there.
+  /// While points come in, the pose is that of the mode over the points looked at so far, once all six degrees of
+  /// freedom are determined; refine() makes it the optimum over all.
   FitMode mode = FitMode::least_squares;
   double ratio = 10;  ///< min_tolerance: tolerance elsewhere / that at the leading edge
   RegionPolicy regions = RegionPolicy::follow;
@@ -88,6 +90,8 @@ struct FitReport {
       0;  ///< feet whose search met its cap in the last sweep of refine(): then it is not converged
   std::uint32_t revision = 0;  ///< +1 whenever the pose moves
   bool memory_full = false;
+  /// The mode's optimum still moves, or not every point has been looked at since it did. Never in least squares.
+  bool improving = false;
 };
 
 /// Incremental least squares of a stream of points against a design surface, in the caller's memory.
@@ -190,9 +194,19 @@ class Localizer {
   [[nodiscard]] double robust_scale() const;
   [[nodiscard]] FitMode first_stage() const;
   void begin_bounded(FitMode mode);
+  [[nodiscard]] double bound_weight(const Foot& foot) const;
+  [[nodiscard]] double bound_unit() const;
+  void stop_trackers();
+  void begin_trackers();
+  void look_at(std::uint32_t index, const Measurement& m);
+  [[nodiscard]] bool follow(BoundTracker& tracker);
+  void follow_bounds();
+  void tell_bounds();
+  void name_points(Certificate& certificate) const;
+  [[nodiscard]] bool improving() const;
   [[nodiscard]] Status bounded_step();
   [[nodiscard]] Status bounded_optimum();
-  void certify(double unit);
+  void certify();
   [[nodiscard]] double assign_regions();
   void include_row(std::uint32_t index, const Measurement& measurement);
   [[nodiscard]] double threshold() const;
@@ -216,7 +230,10 @@ class Localizer {
   bool concluded_ = false, converged_ = false, redetermine_ = true;
   Refinement refinement_;
   BoundedFit bounded_;
-  bool regions_held_ = false;  ///< points keep region and tolerance whatever their feet
+  /// In a stream: the mode's program, and in a constrained fit that of the smallest feasible tolerances.
+  BoundTracker tracker_, least_;
+  std::uint32_t looked_at_ = 0;  ///< points since the programs last moved
+  bool regions_held_ = false;    ///< points keep region and tolerance whatever their feet
   bool infeasible_ = false;
   double tolerance_factor_ = 0, smallest_tolerance_ = 0, stationarity_ = 0;
   Certificate certificate_;

@@ -21,16 +21,11 @@ constexpr double kFeasible = 1e-12;
 
 /// Weights and regions of all points from their present feet. Returns the largest relative change of a weight.
 double Localizer::assign_regions() {
-  ToleranceMap weights = config_.tolerance;
-  weights.leading_edge_mm = 1.0;
-  weights.rest_mm = config_.ratio;
   double change = 0.0;
   for (std::uint32_t i = 0; i < stored_; ++i) {
     StoredPoint& point = points_[i];
     const Foot& foot = point.foot;
-    const double weight = config_.mode == FitMode::constrained
-                              ? tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v)
-                              : tolerance_at(weights, foot.patch, foot.u, foot.v);
+    const double weight = bound_weight(foot);
     // A foot on the border of a region may be drawn over it by one bound and back by the other: it keeps the tighter.
     if (refinement_.rounds >= kFreeRounds && weight > bounded_.weight(i)) continue;
     count_verdict(point, -1);
@@ -102,32 +97,26 @@ Status Localizer::bounded_optimum() {
   stationarity_ = bounded_.stationarity();
   const bool optimum = bounded_.mode() == config_.mode;
   // The weights of a constrained fit are its tolerances, those of min_tolerance are 1 at the leading edge.
-  const bool one_level = config_.tolerance.box_count == 0 || !std::isfinite(config_.tolerance.leading_edge_mm);
-  const double asked = one_level ? config_.tolerance.rest_mm : config_.tolerance.leading_edge_mm;
-  const double unit = config_.mode == FitMode::constrained ? asked : 1.0;
   const double value = bounded_.value();
-  if (bounded_.mode() == FitMode::min_tolerance) smallest_tolerance_ = value * unit;
+  if (bounded_.mode() == FitMode::min_tolerance) smallest_tolerance_ = value * bound_unit();
   if (!optimum && (config_.mode == FitMode::range || value <= 1.0 + kFeasible)) {
     begin_bounded(config_.mode);
     return Status::more_work;
   }
   infeasible_ = !optimum;
-  certify(unit);
+  certify();
   return Status::ok;
 }
 
 /// What is told of an optimum: its value and the points that prove it.
-void Localizer::certify(double unit) {
+void Localizer::certify() {
   certificate_ = Certificate();
   tolerance_factor_ = 0;
   if (bounded_.mode() == FitMode::constrained) return;
-  tolerance_factor_ = bounded_.value() * unit;
+  tolerance_factor_ = bounded_.value() * bound_unit();
   if (bounded_.mode() == FitMode::range) return;
   certificate_ = bounded_.certificate();
-  for (std::uint32_t k = 0; k < certificate_.count; ++k) {
-    certificate_.multiplier[k] *= unit;
-    certificate_.sequence[k] = points_[certificate_.sequence[k]].sequence;
-  }
+  name_points(certificate_);
 }
 
 }  // namespace bladefit

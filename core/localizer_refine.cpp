@@ -59,6 +59,7 @@ bool Localizer::finish_refine_sweep(Status& status) {
   unproven_ = r.unproven;
   converged_ = status == Status::ok && unproven_ == 0;
   if (status == Status::ok && unproven_ > 0) status = Status::iteration_cap;
+  infeasible_ = infeasible_ && converged_;
   r.thorough = r.last_step.norm() <= kCheckedAbove * frame_.length;
   r.changed = r.unproven = 0;
   if (status == Status::more_work && r.sweeps >= kMaxSweeps) status = Status::iteration_cap;
@@ -74,6 +75,7 @@ Status Localizer::refine(std::uint32_t max_points) {
     refinement_.active = true;
     regions_held_ = infeasible_ = false;
     begin_loss();
+    stop_trackers();
     // What an earlier refinement found is not told beside what this one may fail to find.
     tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0.0;
     certificate_ = Certificate();
@@ -96,6 +98,7 @@ Status Localizer::refine(std::uint32_t max_points) {
     if (!finish_refine_sweep(status)) continue;
     refinement_.active = false;
     for (std::uint32_t i = 0; i < stored_; ++i) rejudge(i);
+    if (status == Status::ok && config_.mode != FitMode::least_squares) begin_trackers();
     return status;
   }
   return status;

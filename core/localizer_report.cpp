@@ -74,6 +74,7 @@ FitReport Localizer::fit() const {
   report.smallest_eigenvalue = determination_.smallest;
   report.gradient = last_step_;
   report.revision = revision_;
+  report.improving = improving();
   report.memory_full = accepted_ > stored_;
   const double square = 2.0 * model.value_at(motion_between(model.reference, pose_, frame_));
   const std::uint32_t unknowns = 6 - determination_.locked;
@@ -83,7 +84,7 @@ FitReport Localizer::fit() const {
   if (model.count > unknowns) report.sigma_mm = robust ? loss_scale_ : std::sqrt(square / (model.count - unknowns));
   if (determination_.rank == 6) {
     report.covariance = pose_covariance(report.sigma_mm * report.sigma_mm * covariance_, pose_, frame_);
-    report.status = !converged_ ? FitStatus::tracking : infeasible_ ? FitStatus::infeasible : FitStatus::converged;
+    report.status = infeasible_ ? FitStatus::infeasible : converged_ ? FitStatus::converged : FitStatus::tracking;
   }
   report.tolerance_factor_mm = tolerance_factor_;
   report.smallest_tolerance_mm = smallest_tolerance_;

@@ -74,7 +74,8 @@ std::uint32_t Localizer::place_to_give_up() {
     const std::uint32_t index = next_given_up_;
     next_given_up_ = next_given_up_ + 1 < stored_ ? next_given_up_ + 1 : 0;
     const StoredPoint& point = points_[index];
-    if (point.region == Region::rest && !point.fresh && !point.queued) return index;
+    const bool held = tracker_.holds(index) || least_.holds(index);
+    if (point.region == Region::rest && !point.fresh && !point.queued && !held) return index;
   }
   return stored_;
 }
@@ -145,6 +146,7 @@ void Localizer::gather(const Measurement& newest) {
 /// Takes over a new foot and queues the verdict where it has changed.
 void Localizer::review(std::uint32_t index, const Measurement& m) {
   note(points_[index], m);
+  look_at(index, m);
   rejudge(index);
 }
 

@@ -36,6 +36,13 @@ void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
   has_last_ = curved_ = false;
 }
 
+void BoundedFit::resume(std::uint32_t count) {
+  count_ = count;
+  trust_ = reach_;
+  curvature_.setZero();
+  has_last_ = curved_ = false;
+}
+
 double BoundedFit::set_weight(std::uint32_t i, double weight) {
   double& kept = column(kWeight)[i];
   const double change = std::abs(kept - weight) / weight;
@@ -71,16 +78,37 @@ void BoundedFit::skip_row(std::uint32_t i) {
 /// Of a row that counts; NaN of one that does not.
 double BoundedFit::distance(std::uint32_t i) const { return -0.5 * (column(kLower)[i] + column(kUpper)[i]); }
 
-double BoundedFit::value() const {
-  double most = -kInfinity, least = kInfinity, ratio = 0.0;
+BoundedFit::Extremes BoundedFit::extremes() const {
+  Extremes out{kInfinity, -kInfinity};
   for (std::uint32_t i = 0; i < count_; ++i) {
     const double d = distance(i);
     if (std::isnan(d)) continue;
-    most = std::max(most, d);
-    least = std::min(least, d);
-    ratio = std::max(ratio, std::abs(d) / (mode_ == FitMode::minimax ? 1.0 : column(kWeight)[i]));
+    out.least = std::min(out.least, d);
+    out.most = std::max(out.most, d);
   }
-  return mode_ == FitMode::range ? most - least : ratio;
+  return out;
+}
+
+double BoundedFit::value() const {
+  if (mode_ == FitMode::range) {
+    const Extremes found = extremes();
+    return found.most - found.least;
+  }
+  double ratio = 0.0;
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    const double d = distance(i);
+    if (!std::isnan(d)) ratio = std::max(ratio, std::abs(d) / (mode_ == FitMode::minimax ? 1.0 : column(kWeight)[i]));
+  }
+  return ratio;
+}
+
+double BoundedFit::slack(std::uint32_t i) const {
+  const double d = distance(i);
+  if (std::isnan(d)) return kInfinity;
+  if (mode_ == FitMode::minimax) return value() - std::abs(d);
+  if (mode_ != FitMode::range) return value() - std::abs(d) / column(kWeight)[i];
+  const Extremes found = extremes();
+  return std::min(found.most - d, d - found.least);
 }
 
 double BoundedFit::merit(const QuadraticModel& model) const {

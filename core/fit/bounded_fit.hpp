@@ -20,6 +20,8 @@ class BoundedFit {
   /// Begins a fit of mode minimax, range, min_tolerance or constrained over `count` points. `reach` [mm]: the pose
   /// moves no farther in one step.
   void begin(FitMode mode, std::uint32_t count, double reach);
+  /// Goes on with `count` points, some of them new: from the present active set, with nothing to compare a step with.
+  void resume(std::uint32_t count);
   [[nodiscard]] FitMode mode() const { return mode_; }
 
   /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again.
@@ -45,6 +47,14 @@ class BoundedFit {
 
   /// At the present rows: max |d|, max d - min d, max |d| / w, or for constrained max |d| / tolerance.
   [[nodiscard]] double value() const;
+
+  /// Smallest and largest signed distance [mm].
+  struct Extremes {
+    double least = 0, most = 0;
+  };
+  [[nodiscard]] Extremes extremes() const;
+  /// How far row i is from its bound, in its own weight; infinite where it does not count.
+  [[nodiscard]] double slack(std::uint32_t i) const;
 
   /// The active points of the last program; `sequence` holds row numbers.
   [[nodiscard]] Certificate certificate() const;
