@@ -106,17 +106,32 @@ std::vector<Row> warm_rows(const BenchDesign& design, const FitProblem& problem)
   return rows;
 }
 
+/// All feet by bladefit's global search; `hints`: from these, or from nothing where there are none.
+void search_all(const BenchDesign& design, const std::vector<Vec3>& queries, const std::vector<Projection>& hints,
+                std::vector<Parameters>& feet) {
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    ProjectionQuery query;
+    query.point = queries[k];
+    const Projection* hint = hints.empty() ? nullptr : &hints[k];
+    const GlobalProjection found = project_global(design.design.surface(), query, hint);
+    // What is not proven is no answer.
+    feet[k] = {found.proven ? found.nearest.place.u : kUnknown, found.nearest.place.v};
+  }
+}
+
 std::vector<Answers> cold_solvers(const BenchDesign& design, const std::vector<Vec3>& queries) {
+  std::vector<Projection> hints;
+  for (const Vec3& r : queries) {
+    ProjectionQuery query;
+    query.point = r;
+    hints.push_back(project_global(design.design.surface(), query, nullptr).nearest);
+  }
   std::vector<Answers> solvers;
-  solvers.push_back({"bladefit", {}, [&](std::vector<Parameters>& feet) {
-                       for (std::size_t k = 0; k < queries.size(); ++k) {
-                         ProjectionQuery query;
-                         query.point = queries[k];
-                         const GlobalProjection found = project_global(design.design.surface(), query, nullptr);
-                         // What is not proven is no answer.
-                         feet[k] = {found.proven ? found.nearest.place.u : kUnknown, found.nearest.place.v};
-                       }
-                     }});
+  solvers.push_back({"bladefit", {}, [&](std::vector<Parameters>& feet) { search_all(design, queries, {}, feet); }});
+  solvers.push_back(
+      {"bladefit, its own foot as the hint", {}, [&design, &queries, hints](std::vector<Parameters>& feet) {
+         search_all(design, queries, hints, feet);
+       }});
   for (const Peer& peer : design.peers) {
     if (!peer.nearest_global) continue;
     solvers.push_back({peer.name, {}, [&](std::vector<Parameters>& feet) {
