@@ -36,11 +36,32 @@ Cells cells_of(const Row& row) {
 const Cells kHeads = {"task, design", "solver", "median", "minimum",    "ratio",
                       "error [mm]",   "misses", "runs",   "calibration"};
 
+/// "SISL 19", and what is wrong with its answers.
+std::string beside(const Row& row) {
+  std::string text = fmt::format("{} **{}**", row.solver, ratio_text(row));
+  if (row.misses > 0) text += fmt::format(" ({} of {} missed)", row.misses, row.count);
+  if (row.wrong && row.misses <= 0) text += fmt::format(" (wrong by {:.0e} mm)", row.error_mm);
+  return text;
+}
+
+/// One line a task: bladefit's figures, then the ratios of the others.
 std::string markdown_of(const std::vector<Row>& rows) {
   std::string text =
-      fmt::format("| {} |\n|{}\n", fmt::join(kHeads, " | "), "---|---|---:|---:|---:|---:|---:|---:|---:|");
-  for (const Row& row : rows) text += fmt::format("| {} |\n", fmt::join(cells_of(row), " | "));
-  return text;
+      "| task, design | bladefit, median (minimum) | error [mm] | calibration | time of others / bladefit's |\n"
+      "|---|---|---|---|---|";
+  std::string task;
+  bool first = true;
+  for (const Row& row : rows) {
+    const Cells cells = cells_of(row);
+    if (cells[0] != task) {
+      text += fmt::format("\n| {} | {} ({}) | {} | {} | ", cells[0], cells[2], cells[3], cells[5], cells[8]);
+    } else {
+      text += fmt::format("{}{}", first ? "" : ", ", beside(row));
+    }
+    first = cells[0] != task;
+    task = cells[0];
+  }
+  return text + "\n";
 }
 
 /// The task is a heading, the rest one line a solver.
