@@ -50,18 +50,20 @@ std::string markdown_of(const std::vector<Row>& rows) {
       "| task, design | bladefit, median (minimum) | error [mm] | calibration | time of others / bladefit's |\n"
       "|---|---|---|---|---|";
   std::string task;
-  bool first = true;
+  bool alone = true;
   for (const Row& row : rows) {
     const Cells cells = cells_of(row);
     if (cells[0] != task) {
-      text += fmt::format("\n| {} | {} ({}) | {} | {} | ", cells[0], cells[2], cells[3], cells[5], cells[8]);
+      if (!task.empty()) text += " |";
+      text += fmt::format("\n| {} | {} ({}) | {} | {} |", cells[0], cells[2], cells[3], cells[5], cells[8]);
+      alone = true;
     } else {
-      text += fmt::format("{}{}", first ? "" : ", ", beside(row));
+      text += fmt::format("{}{}", alone ? " " : "; ", beside(row));
+      alone = false;
     }
-    first = cells[0] != task;
     task = cells[0];
   }
-  return text + "\n";
+  return text + " |\n";
 }
 
 /// The task is a heading, the rest one line a solver.
