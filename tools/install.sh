@@ -1,13 +1,17 @@
 #!/usr/bin/env bash
-# Installs what bladefit is built with, by apt; with --tests also what its tests use. Does nothing where all is there.
+# Installs what bladefit is built with, by apt; with --tests also what its tests use, with --bench what its benchmarks use.
+# Does nothing where all is there.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libeigen3-dev libmodbus-dev libserialport-dev libocct-data-exchange-dev
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libboost-dev)
 if [[ "${1:-}" == "--tests" ]]; then
   packages+=(libgtest-dev librapidcheck-dev libnlopt-dev mbpoll python3 valgrind clang-format clang-tidy binutils git)
+elif [[ "${1:-}" == "--bench" ]]; then
+  packages+=(libgtest-dev librapidcheck-dev valgrind libsisl-dev libceres-dev libnlopt-dev libnlopt-cxx-dev
+    coinor-libipopt-dev libnanoflann-dev)
 elif [[ $# -gt 0 ]]; then
-  echo "usage: tools/install.sh [--tests]" >&2
+  echo "usage: tools/install.sh [--tests | --bench]" >&2
   exit 2
 fi
 
