@@ -40,6 +40,11 @@ bool finite(const std::array<double, 3>& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
 
+bool on_design(const Surface& surface, const SurfacePlace& place) {
+  const bool inside = place.u >= 0.0 && place.u <= 1.0 && place.v >= 0.0 && place.v <= 1.0;
+  return inside && place.span < surface.image().spans().size();
+}
+
 bool tolerances_valid(const ToleranceMap& map, std::size_t patches) {
   const bool numbers =
       map.leading_edge_mm > 0.0 && map.rest_mm > 0.0 && std::isfinite(map.transition) && map.transition >= 0.0;
@@ -120,7 +125,7 @@ void Localizer::reset() {
   tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0;
   certificate_ = Certificate();
   unproven_ = 0;
-  revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
+  searches_ = revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
   judged_out_[0] = judged_out_[1] = 0;
   stored_ = next_given_up_ = fresh_count_ = active_count_ = cursor_ = queue_head_ = queue_size_ = 0;
   last_place_ = SurfacePlace();
@@ -162,15 +167,20 @@ Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& 
   return m;
 }
 
-StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measurement) const {
+StoredPoint Localizer::made_from(const ProbePoint& point, const SurfacePlace& start) const {
   StoredPoint stored;
   stored.position = to_vec3(point.position);
   if (config_.use_approach) stored.approach = to_vec3(point.approach);
   stored.sequence = point.sequence;
-  stored.span = last_place_.span;
-  stored.foot.u = last_place_.u;
-  stored.foot.v = last_place_.v;
+  stored.span = start.span;
+  stored.foot.u = start.u;
+  stored.foot.v = start.v;
   stored.outside_window = outside_window(stored);
+  return stored;
+}
+
+StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measurement) const {
+  const StoredPoint stored = made_from(point, last_place_);
   measurement = measure(stored, pose_);
   return stored;
 }
@@ -213,10 +223,22 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
 Status Localizer::stage(const ProbePoint& point) {
   if (const Status status = check(point); status != Status::ok) return status;
   if (stored_ == config_.capacity) return Status::out_of_range;
-  refinement_.active = converged_ = regions_held_ = infeasible_ = false;
-  redetermine_ = true;
   Measurement measurement;
   const StoredPoint passing = admitted(point, measurement);
+  return stage(passing, measurement);
+}
+
+Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start) {
+  if (const Status status = check(point); status != Status::ok) return status;
+  if (stored_ == config_.capacity || !on_design(surface_, start)) return Status::out_of_range;
+  StoredPoint passing = made_from(point, start);
+  passing.lead = std::numeric_limits<double>::infinity();  // no motion makes the foot doubtful
+  return stage(passing, measure(passing, pose_));
+}
+
+Status Localizer::stage(const StoredPoint& passing, const Measurement& measurement) {
+  refinement_.active = converged_ = regions_held_ = infeasible_ = false;
+  redetermine_ = true;
   StoredPoint& own = *store(passing, measurement);
   settle_all();
   judge(own);

@@ -5,6 +5,7 @@
 #include "config/fit_settings.hpp"
 #include "core/localizer.hpp"
 #include "tools/design/design_file.hpp"
+#include "tools/starts/first_feet.hpp"
 
 namespace bladefit {
 
@@ -22,6 +23,7 @@ struct FitPlan {
   std::string units = "mm";            ///< of lengths on the command line and in results
   double mm_per_unit = 1.0;
   LocalizerConfig localizer;
+  FootStarts starts = FootStarts::searched;  ///< of a batch fit
   std::string note;  ///< a line the user should read; empty = none
 };
 
