@@ -59,10 +59,27 @@ std::set<int> wanted_tables(const ReproduceFlags& flags) {
   return wanted;
 }
 
-/// The folder of the stand-in data: as given, or tests/data here, or that of the sources this was built from.
+/// tests/data in `start` or a folder above it; empty where there is none.
+std::filesystem::path find_upwards(std::filesystem::path start) {
+  for (;;) {
+    std::error_code ignored;
+    if (std::filesystem::exists(start / "tests/data/arl_fan/case.json", ignored)) return start / "tests/data";
+    if (start == start.parent_path()) return {};
+    start = start.parent_path();
+  }
+}
+
+/// The data of the sources one stands in, or else of those that this program was built in.
+std::filesystem::path default_folder() {
+  std::error_code error;
+  std::filesystem::path folder = find_upwards(std::filesystem::current_path(error));
+  if (folder.empty()) folder = find_upwards(std::filesystem::read_symlink("/proc/self/exe", error).parent_path());
+  if (folder.empty()) throw DesignError("tests/data: is neither here nor above the program; give --data FOLDER");
+  return folder;
+}
+
 std::filesystem::path data_folder(const ReproduceFlags& flags) {
-  std::filesystem::path folder = flags.data;
-  if (folder.empty()) folder = std::filesystem::exists("tests/data/arl_fan") ? "tests/data" : BLADEFIT_REFERENCE_DATA;
+  const std::filesystem::path folder = flags.data.empty() ? default_folder() : std::filesystem::path(flags.data);
   for (const ThesisStudy& study : thesis_studies()) {
     if (std::filesystem::exists(folder / study.data / "case.json")) continue;
     throw DesignError(fmt::format("{}: has no {}/case.json; give --data the folder tests/data of the bladefit sources",
