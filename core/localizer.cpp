@@ -40,11 +40,6 @@ bool finite(const std::array<double, 3>& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
 
-bool on_design(const Surface& surface, const SurfacePlace& place) {
-  const bool inside = place.u >= 0.0 && place.u <= 1.0 && place.v >= 0.0 && place.v <= 1.0;
-  return inside && place.span < surface.image().spans().size();
-}
-
 bool tolerances_valid(const ToleranceMap& map, std::size_t patches) {
   const bool numbers =
       map.leading_edge_mm > 0.0 && map.rest_mm > 0.0 && std::isfinite(map.transition) && map.transition >= 0.0;
@@ -226,25 +221,6 @@ Status Localizer::stage(const ProbePoint& point) {
   Measurement measurement;
   const StoredPoint passing = admitted(point, measurement);
   return stage(passing, measurement);
-}
-
-Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start) {
-  if (const Status status = check(point); status != Status::ok) return status;
-  if (stored_ == config_.capacity || !on_design(surface_, start)) return Status::out_of_range;
-  StoredPoint passing = made_from(point, start);
-  passing.lead = std::numeric_limits<double>::infinity();  // no motion makes the foot doubtful
-  return stage(passing, measure(passing, pose_));
-}
-
-Status Localizer::stage(const StoredPoint& passing, const Measurement& measurement) {
-  refinement_.active = converged_ = regions_held_ = infeasible_ = false;
-  redetermine_ = true;
-  StoredPoint& own = *store(passing, measurement);
-  settle_all();
-  judge(own);
-  own.told_state = own.state;
-  own.told_action = own.action;
-  return Status::ok;
 }
 
 void Localizer::conclude() {

@@ -24,7 +24,7 @@ struct FitPlan {
   double mm_per_unit = 1.0;
   LocalizerConfig localizer;
   FootStarts starts = FootStarts::searched;  ///< of a batch fit
-  std::string note;  ///< a line the user should read; empty = none
+  std::string note;                          ///< a line the user should read; empty = none
 };
 
 /// Where the design's outward side comes from. Throws DesignError for a text that is not +, - or auto.

@@ -58,7 +58,7 @@ void prove_starts(const DesignImage& design, const FitPlan& plan, const std::vec
   const double began = thread_cpu_s();
   StagedPoints searched = staged(design, plan, points, FootStarts::searched, name);
   result.wrong_starts = different_feet(fit.verdicts, searched.verdicts, Surface(design).half_diagonal());
-  if (result.wrong_starts > 0) {
+  if (result.wrong_starts > 0 || fit.localizer->fit().status == FitStatus::tracking) {
     refine_all(*searched.localizer, points.size());
     result.proof.searches = searched.localizer->fit().searches;
     fit = std::move(searched);
