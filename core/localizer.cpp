@@ -125,7 +125,7 @@ void Localizer::reset() {
   tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0;
   certificate_ = Certificate();
   unproven_ = 0;
-  revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
+  searches_ = revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
   judged_out_[0] = judged_out_[1] = 0;
   stored_ = next_given_up_ = fresh_count_ = active_count_ = cursor_ = queue_head_ = queue_size_ = 0;
   last_place_ = SurfacePlace();
@@ -168,16 +168,21 @@ Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& 
   return m;
 }
 
-StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measurement) const {
+StoredPoint Localizer::made_from(const ProbePoint& point, const SurfacePlace& start) const {
   StoredPoint stored;
   stored.position = to_vec3(point.position);
   if (config_.use_approach) stored.approach = to_vec3(point.approach);
   stored.sequence = point.sequence;
   stored.weight = point.weight;
-  stored.span = last_place_.span;
-  stored.foot.u = last_place_.u;
-  stored.foot.v = last_place_.v;
+  stored.span = start.span;
+  stored.foot.u = start.u;
+  stored.foot.v = start.v;
   stored.outside_window = outside_window(stored);
+  return stored;
+}
+
+StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measurement) const {
+  const StoredPoint stored = made_from(point, last_place_);
   measurement = measure(stored, pose_);
   return stored;
 }
@@ -222,17 +227,9 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
 Status Localizer::stage(const ProbePoint& point) {
   if (const Status status = check(point); status != Status::ok) return status;
   if (stored_ == config_.capacity) return Status::out_of_range;
-  refinement_.active = converged_ = regions_held_ = infeasible_ = false;
-  stop_trackers();
-  redetermine_ = true;
   Measurement measurement;
   const StoredPoint passing = admitted(point, measurement);
-  StoredPoint& own = *store(passing, measurement);
-  settle_all();
-  judge(own);
-  own.told_state = own.state;
-  own.told_action = own.action;
-  return Status::ok;
+  return stage(passing, measurement);
 }
 
 void Localizer::conclude() {

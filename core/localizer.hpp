@@ -88,6 +88,7 @@ struct FitReport {
   double stationarity = 0;  ///< of its Karush-Kuhn-Tucker conditions, relative: the self check of the mode
   std::uint32_t unproven =
       0;  ///< feet whose search met its cap in the last sweep of refine(): then it is not converged
+  std::uint32_t searches = 0;  ///< global searches for the feet of stored points so far, those for a window left out
   std::uint32_t revision = 0;  ///< +1 whenever the pose moves
   bool memory_full = false;
   /// The mode's optimum still moves, or not every point has been looked at since it did. Never in least squares.
@@ -115,6 +116,12 @@ class Localizer {
   /// Adds the point without moving the pose: batch fits call it for every point and then refine().
   /// Statuses as push(), and out_of_range when the capacity is used up.
   [[nodiscard]] Status stage(const ProbePoint& point);
+
+  /// The same with a first foot found by Newton's method from `start` alone, so it may be another local minimum than
+  /// the nearest: it is tracked as it is until the last sweep of refine() searches every foot globally. It is searched
+  /// at once where it ends on an edge or does not face the probe. With a window every point is searched for that.
+  /// Statuses as stage(), and out_of_range where `start` is not a place of the design.
+  [[nodiscard]] Status stage_from(const ProbePoint& point, const SurfacePlace& start);
 
   /// Takes the next verdict that a later fit has changed. False when there is none.
   [[nodiscard]] bool next_revision(Verdict& verdict);
@@ -165,7 +172,9 @@ class Localizer {
   [[nodiscard]] bool outside_window(const StoredPoint& point) const;
   [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const;
   [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose) const;
+  [[nodiscard]] StoredPoint made_from(const ProbePoint& point, const SurfacePlace& start) const;
   [[nodiscard]] StoredPoint admitted(const ProbePoint& point, Measurement& measurement) const;
+  Status stage(const StoredPoint& passing, const Measurement& measurement);
   StoredPoint* store(const StoredPoint& point, const Measurement& measurement);
   StoredPoint* keep(std::uint32_t index, const StoredPoint& point, const Measurement& measurement);
   [[nodiscard]] std::uint32_t place_to_give_up();
@@ -239,6 +248,7 @@ class Localizer {
   Certificate certificate_;
   std::uint32_t unproven_ = 0;
   double last_step_ = 0;
+  std::uint32_t searches_ = 0;
   std::uint32_t revision_ = 0, accepted_ = 0, rejected_ = 0, last_sequence_ = 0, last_path_ = 0;
   std::uint32_t judged_out_[2] = {0, 0};
   SurfacePlace last_place_;

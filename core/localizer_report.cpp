@@ -91,6 +91,7 @@ FitReport Localizer::fit() const {
   report.certificate = certificate_;
   report.stationarity = stationarity_;
   report.unproven = unproven_;
+  report.searches = searches_;
   report.rest = region_report(current_.regions[0], judged_out_[0]);
   report.leading_edge = region_report(current_.regions[1], judged_out_[1]);
   return report;

@@ -33,6 +33,7 @@ void Localizer::note(StoredPoint& point, const Measurement& m) {
   point.span = m.projection.place.span;
   point.revision = revision_;
   if (!m.searched) return;
+  ++searches_;
   point.searched_at = m.r;
   point.lead = m.lead;
 }

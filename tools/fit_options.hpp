@@ -6,6 +6,7 @@
 #include "config/fit_settings.hpp"
 #include "core/localizer.hpp"
 #include "tools/design/design_file.hpp"
+#include "tools/starts/first_feet.hpp"
 
 namespace bladefit {
 
@@ -23,7 +24,8 @@ struct FitPlan {
   std::string units = "mm";            ///< of lengths on the command line and in results
   double mm_per_unit = 1.0;
   LocalizerConfig localizer;
-  std::string note;  ///< lines the user should read; empty = none
+  FootStarts starts = FootStarts::searched;  ///< of a batch fit
+  std::string note;                          ///< lines the user should read; empty = none
 };
 
 /// Names of the degrees of freedom in a set of bits of motion_lock.hpp: tx, ry ...

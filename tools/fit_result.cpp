@@ -4,46 +4,69 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <new>
+
+#include "tools/cpu_clock.hpp"
+#include "tools/owned_localizer.hpp"
 
 namespace bladefit {
 namespace {
 
-/// A localizer in memory of its own.
-class OwnedLocalizer {
- public:
-  OwnedLocalizer(const DesignImage& design, LocalizerConfig config, std::size_t points) {
-    config.capacity = static_cast<std::uint32_t>(std::max<std::size_t>(points, 6));
-    const std::size_t size = Localizer::memory_required(config);
-    memory_.reset(static_cast<std::byte*>(::operator new(size, std::align_val_t(64))));
-    const Status status = Localizer::create({memory_.get(), size}, design, config, localizer_);
-    if (status != Status::ok) throw DesignError(fmt::format("the fit cannot start: {}", status_text(status)));
-  }
-  Localizer* operator->() const { return localizer_; }
-
- private:
-  struct Release {
-    void operator()(std::byte* p) const { ::operator delete(p, std::align_val_t(64)); }
-  };
-  std::unique_ptr<std::byte, Release> memory_;
-  Localizer* localizer_ = nullptr;
-};
-
-void stage_all(OwnedLocalizer& localizer, const std::vector<ProbePoint>& points, const std::string& name) {
-  for (const ProbePoint& point : points) {
-    if (const Status status = localizer->stage(point); status != Status::ok)
-      throw DesignError(fmt::format("{}: point {} cannot be used: {}", name, point.sequence, status_text(status)));
-  }
-}
-
-std::vector<Verdict> verdicts_of(const OwnedLocalizer& localizer, const std::vector<ProbePoint>& points) {
+std::vector<Verdict> verdicts_of(const Localizer& localizer, const std::vector<ProbePoint>& points) {
   std::vector<Verdict> verdicts(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (localizer->verdict_of(points[i].sequence, verdicts[i]) != Status::ok)
+    if (localizer.verdict_of(points[i].sequence, verdicts[i]) != Status::ok)
       throw std::logic_error("a staged point is missing");
   }
   return verdicts;
+}
+
+/// Points at the start pose, ready to be refined.
+struct StagedPoints {
+  OwnedLocalizer localizer;
+  std::vector<Verdict> verdicts;
+  std::uint32_t searches = 0;  ///< beside those the localizer counts
+};
+
+StagedPoints staged(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                    FootStarts starts, const std::string& name) {
+  StagedPoints stage{OwnedLocalizer(design, plan.localizer, points.size()), {}, 0};
+  stage.searches = stage_points(*stage.localizer, Surface(design), plan.localizer, points, starts, name);
+  stage.verdicts = verdicts_of(*stage.localizer, points);
+  return stage;
+}
+
+void refine_all(Localizer& localizer, std::size_t points) {
+  localizer.conclude();
+  // The refinement has its own cap on sweeps, so this ends.
+  while (localizer.refine(static_cast<std::uint32_t>(points)) == Status::more_work) {
+  }
+}
+
+/// Feet that are not at the same place, to well within what Newton's method leaves.
+std::uint32_t different_feet(const std::vector<Verdict>& a, const std::vector<Verdict>& b, double half_diagonal_mm) {
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if ((a[i].foot.point - b[i].foot.point).norm() > 1e-7 * half_diagonal_mm) ++count;
+  }
+  return count;
+}
+
+/// Proves the first feet of a fit that only tracked them, by searches. Where one was not the nearest the fit may have
+/// gone astray, to another local optimum or to none, and is made anew from the searched feet.
+void prove_starts(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                  const std::string& name, StagedPoints& fit, FitResult& result) {
+  const double began = thread_cpu_s();
+  StagedPoints searched = staged(design, plan, points, FootStarts::searched, name);
+  result.wrong_starts = different_feet(fit.verdicts, searched.verdicts, Surface(design).half_diagonal());
+  if (result.wrong_starts > 0 || fit.localizer->fit().status == FitStatus::tracking) {
+    refine_all(*searched.localizer, points.size());
+    result.proof.searches = searched.localizer->fit().searches;
+    fit = std::move(searched);
+  } else {
+    result.proof.searches = searched.localizer->fit().searches;
+    fit.verdicts = std::move(searched.verdicts);
+  }
+  result.proof.cpu_s = thread_cpu_s() - began;
 }
 
 class Summing {
@@ -97,18 +120,17 @@ std::string status_of(const FitReport& report) {
 
 FitResult fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
                      const std::string& name) {
-  OwnedLocalizer localizer(design, plan.localizer, points.size());
-  stage_all(localizer, points, name);
-  const std::vector<Verdict> before = verdicts_of(localizer, points);
-  localizer->conclude();
-  // The refinement has its own cap on sweeps, so this ends.
-  while (localizer->refine(static_cast<std::uint32_t>(points.size())) == Status::more_work) {
-  }
   FitResult result;
-  result.report = localizer->fit();
+  const double began = thread_cpu_s();
+  StagedPoints fit = staged(design, plan, points, plan.starts, name);
+  refine_all(*fit.localizer, points.size());
+  result.fit = {thread_cpu_s() - began, fit.searches + fit.localizer->fit().searches};
+  const bool tracked = plan.starts == FootStarts::neighbour || plan.starts == FootStarts::curves;
+  if (tracked) prove_starts(design, plan, points, name, fit, result);
+  result.report = fit.localizer->fit();
   result.status = status_of(result.report);
-  result.verdicts = verdicts_of(localizer, points);
-  sum_up(result, before);
+  result.verdicts = verdicts_of(*fit.localizer, points);
+  sum_up(result, fit.verdicts);
   result.aberrant = aberrant_points(result.report, plan.localizer, result.verdicts, points);
   if (result.all.count < 6) {
     throw DesignError(
@@ -121,13 +143,11 @@ FitResult fit_points(const DesignImage& design, const FitPlan& plan, const std::
 
 FitResult result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
                     const FitReport& report, std::vector<Verdict> verdicts) {
-  OwnedLocalizer start(design, plan.localizer, points.size());
-  stage_all(start, points, "the session");
   FitResult result;
   result.report = report;
   result.status = status_of(report);
   result.verdicts = std::move(verdicts);
-  sum_up(result, verdicts_of(start, points));
+  sum_up(result, staged(design, plan, points, FootStarts::searched, "the session").verdicts);
   result.aberrant = aberrant_points(report, plan.localizer, result.verdicts, points);
   return result;
 }

@@ -14,6 +14,12 @@ struct BeforeAfter {
   double rms_before = 0, rms_after = 0, max_before = 0, max_after = 0;
 };
 
+/// What a batch fit took.
+struct FitCost {
+  double cpu_s = 0;            ///< of this thread
+  std::uint32_t searches = 0;  ///< global searches for feet
+};
+
 /// A finished fit and all its points: what result.json and the operator's summary are made from.
 struct FitResult {
   std::string status;  ///< converged, infeasible, underdetermined or not_converged
@@ -21,9 +27,14 @@ struct FitResult {
   std::vector<Verdict> verdicts;  ///< final ones, rising sequence; index in the points file = sequence - 1
   BeforeAfter all, leading_edge, rest;
   AberrantPoints aberrant;
+  FitCost fit;                     ///< from the first projection to the optimum; of a batch fit alone
+  FitCost proof;                   ///< of proving first feet that were only tracked, a second fit included
+  std::uint32_t wrong_starts = 0;  ///< of these, how many were not the nearest; then the fit was made anew
 };
 
-/// The batch fit of `points`: all are projected at the start pose, then refined until every foot is proven.
+/// The batch fit of `points`: all are projected at the start pose as plan.starts says, then refined until every foot is
+/// proven. First feet that were only tracked are proven afterwards; where one was not the nearest, the fit starts anew
+/// from searched ones, so that the optimum does not depend on plan.starts.
 /// Throws DesignError where fewer than six points count or a point cannot be used; `name` names the points there.
 [[nodiscard]] FitResult fit_points(const DesignImage& design, const FitPlan& plan,
                                    const std::vector<ProbePoint>& points, const std::string& name);

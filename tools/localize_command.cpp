@@ -18,7 +18,7 @@ namespace bladefit {
 namespace {
 
 struct LocalizeFlags {
-  std::string design, points, subset, json, config;
+  std::string design, points, subset, json, config, starts;
   FitSettings fit;
 };
 
@@ -79,7 +79,8 @@ int localize(const LocalizeFlags& flags) {
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
     throw DesignError(fmt::format("{}: {}", flags.design, status_text(status)));
-  const FitPlan plan = plan_fit(settings, design);
+  FitPlan plan = plan_fit(settings, design);
+  if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
   const std::vector<ProbePoint> points = read_points(flags, plan.mm_per_unit);
 
   const bool json_on_stdout = flags.json == "-";
@@ -87,6 +88,10 @@ int localize(const LocalizeFlags& flags) {
   tell_notes(loaded, words);
   if (!plan.note.empty()) fmt::print(words, "{}", plan.note);
   const FitResult result = fit_points(design, plan, points, flags.points);
+  if (!flags.starts.empty()) {
+    fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", result.wrong_starts, points.size(),
+               result.wrong_starts > 0 ? "; fitted anew from searched ones" : "");
+  }
   const std::string json = result_json(result, plan);
   if (json_on_stdout) {
     std::fwrite(json.data(), 1, json.size(), stdout);
@@ -113,6 +118,12 @@ void add_localize_command(CLI::App& app, int& exit_code) {
   command->add_option("--json", flags->json, "write result.json here; - writes it to standard output");
   command->add_option("--config", flags->config,
                       "TOML with a [fit] table (see config/fit.toml); options given here win over it");
+  command->add_option(
+      "--starts", flags->starts,
+      "how the first foot of each point is found; the answer is the same, since all feet are proven by searches at the "
+      "start and at the end. "
+      "curves: from the cubic through its path; neighbour: from the point before on its path; global: by a search. "
+      "Default: from the point before, then a search");
   add_fit_options(*command, flags->fit);
   command->callback([flags, &exit_code] {
     try {

@@ -8,6 +8,7 @@
 #include "tools/loft_command.hpp"
 #include "tools/panel_command.hpp"
 #include "tools/report_command.hpp"
+#include "tools/reproduce_command.hpp"
 #include "tools/run_command.hpp"
 #include "tools/sample_command.hpp"
 #include "tools/simulate_command.hpp"
@@ -38,6 +39,7 @@ int run(int argc, char** argv) {
   bladefit::add_run_command(app, exit_code);
   bladefit::add_panel_command(app, exit_code);
   bladefit::add_report_command(app, exit_code);
+  bladefit::add_reproduce_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -161,7 +161,8 @@ QuadraticModel random_model(std::mt19937_64& random, int rank, Mat6& basis, doub
     Vec6 inner = Vec6::NullaryExpr([&] { return uniform(random, -1, 1); });
     inner.tail(6 - rank).setZero();
     const Mat6 b = basis * random_symmetric(random, 10) * basis.transpose();
-    model.add({uniform(random, -1, 1), basis * inner, bend * b}, Vec6::Zero());
+    const DistanceRow row{uniform(random, -1, 1), basis * inner, bend * b};
+    model.add(row, Vec6::Zero(), 1.0, loss_terms(Loss::none, 1.0, row.distance));
   }
   return model;
 }

@@ -1,0 +1,35 @@
+#include <limits>
+
+#include "core/localizer.hpp"
+
+namespace bladefit {
+namespace {
+
+bool on_design(const Surface& surface, const SurfacePlace& place) {
+  const bool inside = place.u >= 0.0 && place.u <= 1.0 && place.v >= 0.0 && place.v <= 1.0;
+  return inside && place.span < surface.image().spans().size();
+}
+
+}  // namespace
+
+Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start) {
+  if (const Status status = check(point); status != Status::ok) return status;
+  if (stored_ == config_.capacity || !on_design(surface_, start)) return Status::out_of_range;
+  StoredPoint passing = made_from(point, start);
+  passing.lead = std::numeric_limits<double>::infinity();  // no motion makes the foot doubtful
+  return stage(passing, measure(passing, pose_));
+}
+
+Status Localizer::stage(const StoredPoint& passing, const Measurement& measurement) {
+  refinement_.active = converged_ = regions_held_ = infeasible_ = false;
+  stop_trackers();
+  redetermine_ = true;
+  StoredPoint& own = *store(passing, measurement);
+  settle_all();
+  judge(own);
+  own.told_state = own.state;
+  own.told_action = own.action;
+  return Status::ok;
+}
+
+}  // namespace bladefit
