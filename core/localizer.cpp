@@ -136,11 +136,11 @@ void Localizer::reset() {
 }
 
 Status Localizer::check(const ProbePoint& point) const {
-  if (!finite(point.position) || !finite(point.approach)) return Status::not_finite;
+  if (!finite(point.position) || !finite(point.approach) || !std::isfinite(point.weight)) return Status::not_finite;
   const double length = to_vec3(point.approach).norm();
   const double off = (apply(config_.start, to_vec3(point.position)) - frame_.pivot).norm();
   if (off > kFarthest * frame_.length) return Status::out_of_range;
-  if (!(point.weight > 0.0) || !std::isfinite(point.weight)) return Status::out_of_range;
+  if (!(point.weight > 0.0)) return Status::out_of_range;
   if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > 1e-3)) return Status::out_of_range;
   return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
 }

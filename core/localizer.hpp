@@ -206,7 +206,8 @@ class Localizer {
   [[nodiscard]] double bound_weight(const Foot& foot) const;
   [[nodiscard]] double bound_unit() const;
   void stop_trackers();
-  void begin_trackers();
+  [[nodiscard]] double middle_distance(std::uint32_t stride) const;
+  void begin_trackers(std::uint32_t stride);
   void look_at(std::uint32_t index, const Measurement& m);
   [[nodiscard]] bool follow(BoundTracker& tracker);
   void follow_bounds();

@@ -98,7 +98,7 @@ Status Localizer::refine(std::uint32_t max_points) {
     if (!finish_refine_sweep(status)) continue;
     refinement_.active = false;
     for (std::uint32_t i = 0; i < stored_; ++i) rejudge(i);
-    if (status == Status::ok && config_.mode != FitMode::least_squares) begin_trackers();
+    if (status == Status::ok && config_.mode != FitMode::least_squares) begin_trackers(1);
     return status;
   }
   return status;

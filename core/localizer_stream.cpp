@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/localizer.hpp"
 
@@ -43,8 +44,20 @@ void Localizer::stop_trackers() {
   least_.stop();
 }
 
-/// The programs begin at the present pose with the most outlying points, looked for among a few hundred.
-void Localizer::begin_trackers() {
+/// Middle of the signed distances that a range lies about; 0 in the other modes.
+double Localizer::middle_distance(std::uint32_t stride) const {
+  if (config_.mode != FitMode::range) return 0.0;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (std::uint32_t i = 0; i < stored_; i += stride) {
+    if (left_out(points_[i], points_[i].foot)) continue;
+    least = std::min(least, points_[i].foot.distance);
+    most = std::max(most, points_[i].foot.distance);
+  }
+  return least <= most ? 0.5 * (least + most) : 0.0;
+}
+
+/// The programs begin at the present pose with the most outlying of every `stride`-th point.
+void Localizer::begin_trackers(std::uint32_t stride) {
   tracker_.begin(config_.mode, pose_, kReach * frame_.length);
   if (config_.mode == FitMode::constrained) least_.begin(FitMode::min_tolerance, pose_, kReach * frame_.length);
   looked_at_ = 0;
@@ -52,11 +65,11 @@ void Localizer::begin_trackers() {
   std::array<std::uint32_t, BoundTracker::kPlaces> index{};
   std::uint32_t count = 0;
   const bool plain = config_.mode == FitMode::minimax || config_.mode == FitMode::range;
-  const std::uint32_t stride = 1 + stored_ / kSeedsLookedAt;
+  const double middle = middle_distance(stride);
   for (std::uint32_t i = 0; i < stored_; i += stride) {
     const Foot& foot = points_[i].foot;
     if (left_out(points_[i], foot)) continue;
-    const double size = std::abs(foot.distance) / (plain ? 1.0 : bound_weight(foot));
+    const double size = std::abs(foot.distance - middle) / (plain ? 1.0 : bound_weight(foot));
     if (count == BoundTracker::kPlaces && size <= ratio[count - 1]) continue;
     std::uint32_t place = count < BoundTracker::kPlaces ? count++ : count - 1;
     for (; place > 0 && ratio[place - 1] < size; --place) {
@@ -119,7 +132,7 @@ void Localizer::follow_bounds() {
     tolerance_factor_ = smallest_tolerance_ = 0.0;
     certificate_ = Certificate();
     if (determination_.rank < 6 || current_.model.count < kLeastFitted) return;
-    begin_trackers();
+    begin_trackers(1 + stored_ / kSeedsLookedAt);
   }
   if (least_.active()) {
     (void)follow(least_);

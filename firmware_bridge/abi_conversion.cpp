@@ -23,8 +23,8 @@ bool all_finite(std::span<const double> values) {
 }
 
 bool numbers_are_finite(const bladefit_config& config) {
-  const double single[] = {config.probe_radius_mm, config.noise_floor_mm, config.determined_mm,
-                           config.transition,      config.window_low,     config.window_high};
+  const double single[] = {config.probe_radius_mm, config.noise_floor_mm, config.determined_mm, config.transition,
+                           config.window_low,      config.window_high,    config.ratio,         config.loss_scale_mm};
   const auto boxes = std::span(config.boxes).first(config.box_count);
   return all_finite(single) && all_finite(config.start_rotation) && all_finite(config.start_translation) &&
          !is_not_number(config.leading_edge_tolerance_mm) && !is_not_number(config.rest_tolerance_mm) &&
@@ -37,13 +37,18 @@ bool numbers_are_finite(const bladefit_config& config) {
 bool choices_are_in_range(const bladefit_config& config) {
   return config.capacity >= kLeastCapacity && config.capacity <= BLADEFIT_MAX_CAPACITY &&
          config.refresh_per_push >= kLeastRefresh && config.refresh_per_push <= kMostRefresh &&
-         config.use_approach <= 1 && config.edges <= BLADEFIT_EDGES_USE && config.box_count <= BLADEFIT_MAX_BOXES;
+         config.use_approach <= 1 && config.edges <= BLADEFIT_EDGES_USE && config.box_count <= BLADEFIT_MAX_BOXES &&
+         config.mode <= BLADEFIT_CONSTRAINED && config.regions <= BLADEFIT_REGIONS_FIXED && config.locked < kLockAll &&
+         config.loss <= BLADEFIT_LOSS_TUKEY;
 }
 
 bool lengths_are_in_range(const bladefit_config& config) {
   return config.probe_radius_mm >= 0 && config.noise_floor_mm > 0 && config.determined_mm >= 0 &&
          config.leading_edge_tolerance_mm > 0 && config.rest_tolerance_mm > 0 && config.transition >= 0 &&
-         config.window_low >= 0 && config.window_low < config.window_high && config.window_high <= 1;
+         config.window_low >= 0 && config.window_low < config.window_high && config.window_high <= 1 &&
+         (config.ratio == 0 || config.ratio >= 1) && config.loss_scale_mm >= 0 &&
+         (config.mode != BLADEFIT_CONSTRAINED || std::isfinite(config.rest_tolerance_mm)) &&
+         (config.loss == BLADEFIT_LOSS_NONE || config.mode == BLADEFIT_LEAST_SQUARES);
 }
 
 bool boxes_are_in_range(const bladefit_config& config) {
@@ -73,6 +78,15 @@ bladefit_region_report translate_region(const RegionReport& from) {
   return {from.count, from.judged_out, from.worst_sequence, 0, from.rms_mm, from.worst_mm};
 }
 
+bladefit_certificate translate_certificate(const Certificate& from) {
+  bladefit_certificate to{};
+  to.count = from.count;
+  std::ranges::copy(from.sequence, to.sequence);
+  std::ranges::copy(from.sign, to.sign);
+  std::ranges::copy(from.multiplier, to.multiplier);
+  return to;
+}
+
 }  // namespace
 
 bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& to) {
@@ -92,6 +106,12 @@ bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& t
   to.window_high = from.window_high;
   to.start = {rotation, Eigen::Map<const Vec3>(from.start_translation)};
   to.tolerance = tolerance_from(from);
+  to.mode = static_cast<FitMode>(from.mode);
+  to.regions = static_cast<RegionPolicy>(from.regions);
+  to.locked = static_cast<std::uint8_t>(from.locked);
+  to.loss = static_cast<Loss>(from.loss);
+  to.loss_scale_mm = from.loss_scale_mm;
+  to.ratio = from.ratio == 0 ? 10.0 : from.ratio;
   return BLADEFIT_OK;
 }
 
@@ -101,6 +121,7 @@ bladefit_status translate_point(const bladefit_point& from, ProbePoint& to) {
   to.path = static_cast<std::uint16_t>(from.path);
   std::ranges::copy(from.position, to.position.begin());
   std::ranges::copy(from.approach, to.approach.begin());
+  to.weight = from.weight == 0 ? 1.0 : from.weight;
   return BLADEFIT_OK;
 }
 
@@ -146,6 +167,13 @@ bladefit_fit_report translate_report(const FitReport& from) {
   to.sigma_mm = from.sigma_mm;
   to.leading_edge = translate_region(from.leading_edge);
   to.rest = translate_region(from.rest);
+  to.improving = from.improving ? 1 : 0;
+  to.unproven = from.unproven;
+  to.tolerance_factor_mm = from.tolerance_factor_mm;
+  to.smallest_tolerance_mm = from.smallest_tolerance_mm;
+  to.stationarity = from.stationarity;
+  to.loss_scale_mm = from.loss_scale_mm;
+  to.certificate = translate_certificate(from.certificate);
   return to;
 }
 

@@ -65,7 +65,24 @@ enum {
   BLADEFIT_BAD_CONTENT = -24  /* the design image contradicts itself */
 };
 
-enum { BLADEFIT_EDGES_SKIP = 0, BLADEFIT_EDGES_USE = 1 };                                /* bladefit_config.edges */
+enum { BLADEFIT_EDGES_SKIP = 0, BLADEFIT_EDGES_USE = 1 }; /* bladefit_config.edges */
+enum {
+  BLADEFIT_LEAST_SQUARES = 0, /* the sum of squared distances */
+  BLADEFIT_MINIMAX = 1,       /* the largest distance */
+  BLADEFIT_RANGE = 2,         /* the largest less the smallest signed distance */
+  BLADEFIT_MIN_TOLERANCE = 3, /* the leading-edge tolerance, `ratio` times it elsewhere */
+  BLADEFIT_CONSTRAINED = 4    /* the sum of squares, every distance within its tolerance */
+};                            /* bladefit_config.mode: what the fit minimises */
+enum { BLADEFIT_REGIONS_FOLLOW = 0, BLADEFIT_REGIONS_FIXED = 1 };                  /* bladefit_config.regions */
+enum { BLADEFIT_LOSS_NONE = 0, BLADEFIT_LOSS_HUBER = 1, BLADEFIT_LOSS_TUKEY = 2 }; /* bladefit_config.loss */
+enum {
+  BLADEFIT_LOCK_TX = 1,
+  BLADEFIT_LOCK_TY = 2,
+  BLADEFIT_LOCK_TZ = 4,
+  BLADEFIT_LOCK_RX = 8,  /* psi */
+  BLADEFIT_LOCK_RY = 16, /* theta */
+  BLADEFIT_LOCK_RZ = 32  /* phi */
+};                       /* bladefit_config.locked, added up: keep their value of the start pose */
 enum { BLADEFIT_INTERIOR = 0, BLADEFIT_EDGE = 1, BLADEFIT_CORNER = 2 };                  /* kind */
 enum { BLADEFIT_REST = 0, BLADEFIT_LEADING_EDGE = 1 };                                   /* region */
 enum { BLADEFIT_PENDING = 0, BLADEFIT_IN = 1, BLADEFIT_OUT = 2, BLADEFIT_REJECTED = 3 }; /* state */
@@ -103,15 +120,21 @@ typedef struct bladefit_config {
   double start_rotation[9];         /* row by row, orthogonal to 1e-9: where the fit starts, machine -> design */
   double start_translation[3];      /* [mm] */
   bladefit_box boxes[BLADEFIT_MAX_BOXES]; /* the leading-edge region is the union of the first box_count */
+  uint32_t mode;                          /* BLADEFIT_LEAST_SQUARES ... */
+  uint32_t regions;                       /* BLADEFIT_REGIONS_FOLLOW: a point's region is that of its present foot, or
+                                             _FIXED: of its foot at the least-squares fit */
+  uint32_t locked;                        /* sum of BLADEFIT_LOCK_..., not all six */
+  uint32_t loss;                          /* BLADEFIT_LOSS_...: robust loss of a least-squares fit */
+  double ratio;                           /* >= 1, or 0 for 10; min_tolerance: tolerance elsewhere / leading edge */
+  double loss_scale_mm;                   /* >= 0; standard deviation of good points; 0 = bladefit_refine() finds it */
 } bladefit_config;
 
 /* A config to start from: 65536 points, nothing judged, start pose = identity. */
-#define BLADEFIT_CONFIG_DEFAULTS                                                                                     \
-  {                                                                                                                  \
-    (uint32_t)sizeof(bladefit_config), 65536u, 8u, 1u, BLADEFIT_EDGES_SKIP, 0u, 0.0, 0.005, 0.0, INFINITY, INFINITY, \
-        0.0, 0.0, 1.0, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, {                             \
-      { 0.0, 0.0, 0.0, 0.0, 0u, 0u }                                                                                 \
-    }                                                                                                                \
+#define BLADEFIT_CONFIG_DEFAULTS                                                                                       \
+  {                                                                                                                    \
+    (uint32_t)sizeof(bladefit_config), 65536u, 8u, 1u, BLADEFIT_EDGES_SKIP, 0u, 0.0, 0.005, 0.0, INFINITY, INFINITY,   \
+        0.0, 0.0, 1.0, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, {{0.0, 0.0, 0.0, 0.0, 0u, 0u}}, \
+        BLADEFIT_LEAST_SQUARES, BLADEFIT_REGIONS_FOLLOW, 0u, BLADEFIT_LOSS_NONE, 10.0, 0.0                             \
   }
 
 /* One touch of the probe, in the machine's coordinates. */
@@ -122,6 +145,7 @@ typedef struct bladefit_point {
   uint32_t reserved;    /* 0 */
   double position[3];   /* [mm] */
   double approach[3];   /* unit vector from the probe to the material; all 0 = unknown */
+  double weight;        /* > 0: of the squared distance in the least-squares objective; 0 = 1 */
 } bladefit_point;
 
 typedef struct bladefit_verdict {
@@ -150,6 +174,15 @@ typedef struct bladefit_region_report {
   double worst_mm; /* distance of largest magnitude, signed */
 } bladefit_region_report;
 
+/* Points that prove an optimum: no motion brings them all nearer. */
+typedef struct bladefit_certificate {
+  uint32_t count; /* 0..8; 0 = none */
+  uint32_t reserved;
+  uint32_t sequence[8];
+  int32_t sign[8];      /* of the distance */
+  double multiplier[8]; /* >= 0; sum of multiplier * sign * gradient of the distance = 0 */
+} bladefit_certificate;
+
 typedef struct bladefit_fit_report {
   uint32_t struct_size; /* sizeof(bladefit_fit_report), set by the caller */
   uint32_t status;      /* BLADEFIT_FIT_... */
@@ -166,6 +199,15 @@ typedef struct bladefit_fit_report {
   double rms_mm;
   double sigma_mm; /* sqrt(sum d^2 / (fitted - 6)); 0 below 7 points */
   bladefit_region_report leading_edge, rest;
+  uint32_t improving;         /* 1: the mode's optimum still moves, or not every point was looked at since it did */
+  uint32_t unproven;          /* feet whose search met its cap: then the fit is not converged */
+  double tolerance_factor_mm; /* optimum of the mode: largest distance, range, smallest leading-edge tolerance (also of
+                                 an infeasible constrained fit); 0 until known */
+  double smallest_tolerance_mm; /* smallest leading-edge tolerance that some pose meets, the ratio kept, in the modes
+                                   min_tolerance and constrained; 0 until known */
+  double stationarity;          /* relative residual of the optimum's Karush-Kuhn-Tucker conditions */
+  double loss_scale_mm;         /* of the robust loss in use; 0 = none */
+  bladefit_certificate certificate;
 } bladefit_fit_report;
 
 /* A fit in the caller's memory. */
