@@ -43,12 +43,12 @@ std::string PanelClient::read(PanelState& state) {
     return fmt::format("{}: the panel does not answer ({}); check that it is a bladefit panel", address(),
                        modbus_strerror(reason));
   }
-  std::array<std::uint16_t, kPanelPlaces * kPlaceRegisters> places{};
-  const bool extended = modbus_read_input_registers(context_.get(), kPlaceBase, static_cast<int>(places.size()),
-                                                    places.data()) == static_cast<int>(places.size());
-  const std::span<const std::uint16_t> known_places =
-      extended ? std::span<const std::uint16_t>(places) : std::span<const std::uint16_t>();
-  if (decode_panel(registers, known_places, state)) return {};
+  std::array<std::uint16_t, kExtensionRegisters> extension{};
+  const bool extended = modbus_read_input_registers(context_.get(), kPlaceBase, static_cast<int>(extension.size()),
+                                                    extension.data()) == static_cast<int>(extension.size());
+  const std::span<const std::uint16_t> known =
+      extended ? std::span<const std::uint16_t>(extension) : std::span<const std::uint16_t>();
+  if (decode_panel(registers, known, state)) return {};
   context_.reset();
   return fmt::format("{}: panel map of version {}, this program reads version {}; use the bladefit of that host",
                      address(), registers[0], kPanelMapVersion);

@@ -81,10 +81,12 @@ void walk_newest(Walk& walk, State& state) {
 }
 
 template <typename Walk, typename State>
-void walk_places(Walk& walk, State& state) {
+void walk_extension(Walk& walk, State& state) {
   for (auto& place : state.newest) {
     walk.word(place.patch).real(place.u).real(place.v).real(place.radius).word(place.action);
   }
+  walk.word(state.improving);
+  for (auto& sequence : state.support) walk.wide(sequence);
 }
 
 template <typename Walk, typename State>
@@ -101,14 +103,14 @@ PanelImage encode_panel(const PanelState& state) {
   PanelImage image;
   Writer registers(image.registers);
   walk_registers(registers.word(kPanelMapVersion), state);
-  Writer places(image.places);
-  walk_places(places, state);
+  Writer extension(image.extension);
+  walk_extension(extension, state);
   image.discrete = {state.leading_edge_out > 0, state.leading_edge_out + state.rest_out > 0,
                     (state.alarms & kAlarmLinkLost) != 0, state.determined == 6};
   return image;
 }
 
-bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers, std::span<const std::uint16_t> places,
+bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers, std::span<const std::uint16_t> extension,
                   PanelState& state) {
   Reader reader(registers);
   std::uint16_t version = 0;
@@ -116,9 +118,9 @@ bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers, std
   if (version != kPanelMapVersion) return false;
   state.newest.fill({});
   walk_registers(reader, state);
-  state.has_places = places.size() == kPanelPlaces * kPlaceRegisters;
-  Reader place_reader(places);
-  if (state.has_places) walk_places(place_reader, state);
+  state.has_extension = extension.size() == kExtensionRegisters;
+  Reader extension_reader(extension);
+  if (state.has_extension) walk_extension(extension_reader, state);
   return true;
 }
 

@@ -23,12 +23,14 @@ namespace bladefit {
 ///   45-46  leading-edge tolerance; 47-48 tolerance elsewhere (infinity: not judged)
 ///   49-50  float32 99th percentile of the time that a push takes [us]
 ///   51     heartbeat, +1 a second
-///   52-53  smallest feasible leading-edge tolerance, of the modes min_tolerance and constrained once refined; else 0
+///   52-53  smallest feasible leading-edge tolerance, live, of the modes min_tolerance and constrained; else 0
 ///   54     determined degrees of freedom
 ///   60-91  the 8 newest leading-edge points out of tolerance, newest first: uint32 sequence, float32 distance
 ///
 /// Extension, in registers that v1 leaves free; a client must bear its absence (exception 2): for the k-th of those 8
 /// points, from 200 + 8 k: uint16 patch, float32 u, float32 v, float32 distance from the shaft axis x, uint16 action.
+///   264      uint16 1: the optimum of the mode still improves, or not every point was looked at since it did
+///   265-280  8 uint32: sequences of the points that prove the smallest feasible tolerance; 0 = no more
 ///
 /// Discrete inputs (function code 2): 0 leading edge out, 1 any point out, 2 link lost, 3 fit determined.
 /// Coils (5, 15), refused unless commands are enabled: 0 start, 1 stop, 2 reset, 3 acknowledge the alarm.
@@ -37,6 +39,8 @@ inline constexpr std::size_t kPanelRegisters = 92;
 inline constexpr std::size_t kPanelPlaces = 8;
 inline constexpr std::uint16_t kPlaceBase = 200;
 inline constexpr std::size_t kPlaceRegisters = 8;
+inline constexpr std::size_t kPanelSupport = 8;
+inline constexpr std::size_t kExtensionRegisters = kPanelPlaces * kPlaceRegisters + 1 + 2 * kPanelSupport;
 inline constexpr std::size_t kPanelDiscreteInputs = 4;
 inline constexpr std::size_t kPanelCoils = 4;
 
@@ -91,22 +95,24 @@ struct PanelState {
   std::uint16_t heartbeat = 0;
   float smallest_feasible = 0;
   std::uint16_t determined = 0;
-  bool has_places = false;  ///< whether patch, u, v, radius and action of `newest` are known
+  bool improving = false;
+  std::array<std::uint32_t, kPanelSupport> support{};  ///< points that prove the smallest tolerance; 0 = no more
+  bool has_extension = false;  ///< whether `improving`, `support` and patch, u, v, radius, action of `newest` are known
   std::array<PanelPlace, kPanelPlaces> newest{};
 };
 
 /// What the server answers from.
 struct PanelImage {
   std::array<std::uint16_t, kPanelRegisters> registers{};
-  std::array<std::uint16_t, kPanelPlaces * kPlaceRegisters> places{};
+  std::array<std::uint16_t, kExtensionRegisters> extension{};
   std::array<bool, kPanelDiscreteInputs> discrete{};
 };
 
 [[nodiscard]] PanelImage encode_panel(const PanelState& state);
 
-/// Reads a state back from registers 0..91, and from 200..263 or an empty span where the server has no extension.
+/// Reads a state back from registers 0..91, and from 200..280 or an empty span where the server has no extension.
 /// False when the map is of another version; then `state` is as before.
 [[nodiscard]] bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers,
-                                std::span<const std::uint16_t> places, PanelState& state);
+                                std::span<const std::uint16_t> extension, PanelState& state);
 
 }  // namespace bladefit

@@ -33,7 +33,7 @@ Bytes read_input_registers(std::span<const std::uint8_t> request, const PanelIma
   std::span<const std::uint16_t> block = image.registers;
   std::size_t offset = first;
   if (first >= kPlaceBase) {
-    block = image.places;
+    block = image.extension;
     offset = first - kPlaceBase;
   }
   if (offset + count > block.size()) return exception(request, kIllegalAddress);

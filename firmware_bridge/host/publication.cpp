@@ -90,6 +90,8 @@ void Publication::update_fit() {
                  to_float(angles.psi), to_float(angles.theta), to_float(angles.phi)};
   state_.determined = static_cast<std::uint16_t>(report.determined);
   state_.smallest_feasible = to_float(report.smallest_tolerance_mm);
+  state_.improving = report.improving;
+  state_.support = report.certificate.sequence;
   state_.leading_edge_tolerance = to_float(tolerance_.leading_edge_mm);
   state_.rest_tolerance = to_float(tolerance_.rest_mm);
   state_.push_latency_us = to_float(figures_.push_p99_us);

@@ -67,7 +67,7 @@ TEST(BridgePanelMap, PutsTheNewestPointsWhereTheContractSays) {
     const auto number = static_cast<float>(place);
     EXPECT_EQ(wide(image, 60 + 4 * place), 80000U + place);
     EXPECT_EQ(real(image, 62 + 4 * place), 0.5F + number);
-    const auto* words = image.places.data() + place * kPlaceRegisters;
+    const auto* words = image.extension.data() + place * kPlaceRegisters;
     const auto at = [words](std::size_t offset) {
       return std::bit_cast<float>(static_cast<std::uint32_t>(words[offset]) << 16U | words[offset + 1]);
     };
@@ -77,6 +77,21 @@ TEST(BridgePanelMap, PutsTheNewestPointsWhereTheContractSays) {
     EXPECT_EQ(at(5), 100.0F + number);
     EXPECT_EQ(words[7], place % 2 == 0 ? 1 : 2);
   }
+}
+
+TEST(BridgePanelMap, NamesThePointsThatProveTheSmallestTolerance) {
+  PanelState state;
+  state.improving = true;
+  state.support = {118, 70000, 3};
+  const PanelImage image = encode_panel(state);
+  EXPECT_EQ(image.extension[64], 1);
+  EXPECT_EQ(image.extension[66], 118);
+  EXPECT_EQ(image.extension[67], 1);
+  EXPECT_EQ(image.extension[68], 70000 - 65536);
+  PanelState read;
+  ASSERT_TRUE(decode_panel(image.registers, image.extension, read));
+  EXPECT_TRUE(read.improving);
+  EXPECT_EQ(read.support, state.support);
 }
 
 TEST(BridgePanelMap, DiscreteInputsFollowTheState) {
@@ -93,15 +108,15 @@ TEST(BridgePanelMap, DiscreteInputsFollowTheState) {
 TEST(BridgePanelMap, ReadsBackWhatItWrites) {
   const PanelImage image = encode_panel(known_state());
   PanelState state;
-  ASSERT_TRUE(decode_panel(image.registers, image.places, state));
+  ASSERT_TRUE(decode_panel(image.registers, image.extension, state));
   EXPECT_EQ(encode_panel(state).registers, image.registers);
-  EXPECT_EQ(encode_panel(state).places, image.places);
-  EXPECT_TRUE(state.has_places);
+  EXPECT_EQ(encode_panel(state).extension, image.extension);
+  EXPECT_TRUE(state.has_extension);
   ASSERT_TRUE(decode_panel(image.registers, {}, state));
-  EXPECT_FALSE(state.has_places);
+  EXPECT_FALSE(state.has_extension);
   PanelImage foreign = image;
   foreign.registers[0] = 2;
-  EXPECT_FALSE(decode_panel(foreign.registers, image.places, state));
+  EXPECT_FALSE(decode_panel(foreign.registers, image.extension, state));
 }
 
 using Bytes = std::vector<std::uint8_t>;
@@ -114,13 +129,13 @@ Bytes answer(const Bytes& request, bool commands_enabled = false) {
 TEST(BridgePanelProtocol, AnswersReadsInsideTheMapOnly) {
   EXPECT_EQ(answer({4, 0, 0, 0, 2}), (Bytes{4, 4, 0, 1, 0, 3}));
   EXPECT_EQ(answer({4, 0, 0, 0, 92}).size(), 2U + 2 * 92);
-  EXPECT_EQ(answer({4, 0, 200, 0, 64}).size(), 2U + 2 * 64);
+  EXPECT_EQ(answer({4, 0, 200, 0, 81}).size(), 2U + 2 * 81);
   EXPECT_EQ(answer({2, 0, 0, 0, 4}), (Bytes{2, 1, 0b1111}));
   EXPECT_EQ(answer({2, 0, 2, 0, 1}), (Bytes{2, 1, 1}));
   EXPECT_EQ(answer({4, 0, 91, 0, 2}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0, 92, 0, 1}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0, 199, 0, 1}), (Bytes{0x84, 2}));
-  EXPECT_EQ(answer({4, 0, 200, 0, 65}), (Bytes{0x84, 2}));
+  EXPECT_EQ(answer({4, 0, 200, 0, 82}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0xFF, 0xFF, 0, 1}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0, 0, 0, 0}), (Bytes{0x84, 3}));
   EXPECT_EQ(answer({4, 0, 0, 0, 126}), (Bytes{0x84, 3}));

@@ -31,7 +31,7 @@ inline PanelState known_state() {
   state.push_latency_us = 4.9F;
   state.heartbeat = 51;
   state.determined = 6;
-  state.has_places = true;
+  state.has_extension = true;
   for (std::size_t place = 0; place < kPanelPlaces; ++place) {
     const auto number = static_cast<float>(place);
     state.newest[place] = {.sequence = 80000 + static_cast<std::uint32_t>(place),

@@ -56,6 +56,21 @@ TEST(BridgeScreen, SaysWhatTheOperatorNeeds) {
   }
 }
 
+TEST(BridgeScreen, NamesThePointsThatCannotBeMetTogether) {
+  ScreenView view = known_view();
+  view.state.alarms = kAlarmInfeasible | kAlarmLeadingEdgeOut;
+  view.state.support = {118, 407, 12, 7, 1999, 1204, 88};
+  view.state.smallest_feasible = 0.0134F;
+  view.state.improving = true;
+  view.state.fit_status = 3;
+  const std::string text = joined(draw_screen(view, kScreenWidth, kScreenHeight));
+  for (const char* words : {"*** INFEASIBLE by points 118 407 12 7 1999 1204 88, LEADING EDGE", "least 0.0134 mm",
+                            "INFEASIBLE, improving"}) {
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+  }
+  EXPECT_NE(status_line(view).find("INFEASIBLE by points 118 407"), std::string::npos);
+}
+
 TEST(BridgeScreen, ColourChangesNoWord) {
   ScreenView view = known_view();
   const std::string plain = joined(draw_screen(view, kScreenWidth, kScreenHeight));
@@ -83,7 +98,7 @@ TEST(BridgeScreen, IsCutToASmallTerminalAndBearsExtremes) {
 
 TEST(BridgeScreen, ShowsADashWhereThePanelHasNoExtension) {
   ScreenView view = known_view();
-  view.state.has_places = false;
+  view.state.has_extension = false;
   const std::vector<std::string> lines = draw_screen(view, kScreenWidth, kScreenHeight);
   EXPECT_NE(lines[15].find("80000"), std::string::npos) << joined(lines);
   EXPECT_NE(lines[15].find(" - "), std::string::npos);

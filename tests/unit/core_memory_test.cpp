@@ -147,7 +147,7 @@ TEST(CoreMemory, CounterCounts) {
   auto* number = new int(3);
   EXPECT_GT(allocations, 0U);
   delete number;
-  void* block = malloc(10);
+  void* volatile block = malloc(10);  // or the compiler leaves the pair out
   free(block);
   EXPECT_GE(count.stop(), 4U);
 }

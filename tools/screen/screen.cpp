@@ -48,7 +48,7 @@ void draw_heading(const ScreenView& view, Page& page) {
 }
 
 void draw_alarm(const ScreenView& view, Page& page) {
-  const std::string alarms = alarm_words(view.state.alarms);
+  const std::string alarms = alarm_words(view.state);
   StyledLine line = page.line();
   line.add(" alarm").to(kValueColumn);
   page.put(alarms.empty() ? line.add("none", Style::good) : line.add("*** " + alarms + " ***", Style::bad));
@@ -75,13 +75,25 @@ void draw_points(const ScreenView& view, Page& page) {
   page.put(state.last_action == Action::none ? line : line.add(", " + action_word(state.last_action), Style::bad));
 }
 
+/// The fit's state; in the modes beside least squares also whether its optimum still moves.
+std::string fit_words(const PanelState& state) {
+  return fit_word(state.fit_status) + (state.improving ? ", improving" : "");
+}
+
+/// The tolerance, and the smallest one that can be met where it is known.
+std::string leading_edge_tolerance_words(const PanelState& state) {
+  const std::string wanted = tolerance_mm(state.leading_edge_tolerance);
+  if (!(state.smallest_feasible > 0.0F)) return wanted;
+  return fmt::format("{}, least {:.4f} mm", wanted, real(state.smallest_feasible));
+}
+
 void draw_fit(const ScreenView& view, Page& page) {
   const PanelState& state = view.state;
   const Style style = state.determined == 6 ? Style::good : Style::plain;
   page.put(page.line()
                .add(" fit")
                .to(kValueColumn)
-               .add(fit_word(state.fit_status), style)
+               .add(fit_words(state), style)
                .to(kSecondColumn)
                .add(fmt::format("{} of 6 degrees of freedom known", state.determined)));
   page.put(page.line()
@@ -109,7 +121,7 @@ void draw_worst(const ScreenView& view, Page& page) {
   page.put(page.line()
                .add(" tolerance")
                .to(kValueColumn)
-               .add(tolerance_mm(state.leading_edge_tolerance))
+               .add(leading_edge_tolerance_words(state))
                .to(kSecondColumn)
                .add(tolerance_mm(state.rest_tolerance)));
   page.put(page.line()
@@ -126,14 +138,14 @@ void draw_worst(const ScreenView& view, Page& page) {
                .add(fmt::format("{}", state.rest_out), state.rest_out > 0 ? Style::bad : Style::plain));
 }
 
-void draw_place(const PanelPlace& place, bool has_places, Page& page) {
+void draw_place(const PanelPlace& place, bool has_extension, Page& page) {
   StyledLine line = page.line();
   if (place.sequence == 0) {
     page.put(line);
     return;
   }
   line.add(fmt::format(" {:>8}  {:>11}  ", place.sequence, signed_mm(place.distance)));
-  if (!has_places) {
+  if (!has_extension) {
     page.put(line.add("-").to(31).add("    -         -         -            -"));
     return;
   }
@@ -146,7 +158,7 @@ void draw_places(const ScreenView& view, Page& page) {
   page.rule();
   page.put(page.line().add(" Leading-edge points out of tolerance, newest first", Style::strong));
   page.put(page.line().add("    point     distance  do       patch         u         v       radius", Style::faint));
-  for (const PanelPlace& place : view.state.newest) draw_place(place, view.state.has_places, page);
+  for (const PanelPlace& place : view.state.newest) draw_place(place, view.state.has_extension, page);
 }
 
 void draw_footing(const ScreenView& view, Page& page) {
@@ -179,10 +191,10 @@ std::string status_line(const ScreenView& view) {
   std::string line = fmt::format(
       "{}, {}; {} points, {:.1f} a second; fit {}, {} of 6, rms {:.4f} mm; leading edge: {} out, worst {}; elsewhere: "
       "{} out",
-      session_word(state.session), link_word(view), state.points, view.points_per_second, fit_word(state.fit_status),
+      session_word(state.session), link_word(view), state.points, view.points_per_second, fit_words(state),
       state.determined, real(state.rms), state.leading_edge_out,
       worst_words(state.worst_leading_edge, state.worst_leading_edge_sequence), state.rest_out);
-  const std::string alarms = alarm_words(state.alarms);
+  const std::string alarms = alarm_words(state);
   return alarms.empty() ? line : line + "; ALARM " + alarms;
 }
 

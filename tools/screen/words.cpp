@@ -15,6 +15,15 @@ std::string word_at(std::span<const std::string_view> words, std::size_t index) 
   return std::string(index < words.size() ? words[index] : "?");
 }
 
+/// " by points 12 81", the points that no pose brings within their tolerances together; empty where not known.
+std::string support_words(const PanelState& state) {
+  std::string text;
+  for (const std::uint32_t sequence : state.support) {
+    if (sequence != 0) text += fmt::format("{}{}", text.empty() ? " by points " : " ", sequence);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string session_word(SessionState state) {
@@ -44,19 +53,20 @@ std::string region_word(Region region) {
   return word_at(kWords, static_cast<std::size_t>(region));
 }
 
-std::string alarm_words(std::uint16_t alarms) {
+std::string alarm_words(const PanelState& state) {
   static constexpr std::array<std::pair<PanelAlarm, std::string_view>, 6> kWords = {
-      {{kAlarmLeadingEdgeOut, "LEADING EDGE OUT"},
+      {{kAlarmInfeasible, "INFEASIBLE"},
+       {kAlarmLeadingEdgeOut, "LEADING EDGE OUT"},
        {kAlarmRestOut, "point out elsewhere"},
        {kAlarmLinkLost, "LINK LOST"},
        {kAlarmDataGap, "POINTS MISSING"},
-       {kAlarmMemoryFull, "memory full"},
-       {kAlarmInfeasible, "INFEASIBLE"}}};
+       {kAlarmMemoryFull, "memory full"}}};
   std::string text;
   for (const auto& [bit, word] : kWords) {
-    if ((alarms & bit) == 0) continue;
+    if ((state.alarms & bit) == 0) continue;
     if (!text.empty()) text += ", ";
     text += word;
+    if (bit == kAlarmInfeasible) text += support_words(state);
   }
   return text;
 }

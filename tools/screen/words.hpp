@@ -13,7 +13,7 @@ namespace bladefit {
 [[nodiscard]] std::string region_word(Region region);
 
 /// The alarms that are on, parted by commas; empty = none.
-[[nodiscard]] std::string alarm_words(std::uint16_t alarms);
+[[nodiscard]] std::string alarm_words(const PanelState& state);
 
 /// "+0.310 mm"; "-" where there is none.
 [[nodiscard]] std::string signed_mm(float value);
