@@ -83,11 +83,11 @@ bool bounds_valid(const ImageBounds& b) {
   return valid;
 }
 
-/// The sides on the patch's edges are marked, and nothing else is set.
+/// The sides on the patch's edges are marked, seams among these, and nothing else is set.
 bool ends_valid(const ImageSpan& s, const ImagePatch& p) {
   const std::uint32_t edges = (s.iu == 0 ? kEndsAtLowU : 0U) | (s.iu + 1 == p.spans_u ? kEndsAtHighU : 0U) |
                               (s.iv == 0 ? kEndsAtLowV : 0U) | (s.iv + 1 == p.spans_v ? kEndsAtHighV : 0U);
-  return (s.ends & edges) == edges && s.ends < 16U;
+  return (s.ends & edges) == edges && s.ends < 256U && ((s.ends >> 4U) & ~edges) == 0;
 }
 
 /// Control points finite, weights positive.

@@ -12,7 +12,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 2;
+inline constexpr std::uint32_t kImageVersion = 3;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -43,12 +43,14 @@ struct ImagePatch {
 
 /// Sides of a span beyond which the surface ends or is not smooth: bits of ImageSpan::ends.
 inline constexpr std::uint32_t kEndsAtLowU = 1, kEndsAtHighU = 2, kEndsAtLowV = 4, kEndsAtHighV = 8;
+/// Edges of the patch beyond which another patch, or the same one again, continues the surface smoothly: further bits.
+inline constexpr std::uint32_t kSeamAtLowU = 16, kSeamAtHighU = 32, kSeamAtLowV = 64, kSeamAtHighV = 128;
 
 /// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
 /// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w).
 struct ImageSpan {
   std::uint32_t patch, iu, iv;
-  std::uint32_t ends;  ///< kEndsAt... bits: edges of the patch and creases
+  std::uint32_t ends;  ///< kEndsAt... bits: edges of the patch and creases; kSeamAt... bits: which edges are seams
   std::uint64_t first_coefficient;
   double cone_axis[3];  ///< every outward normal of the span is within the cone about this unit axis
   double cone_cosine;   ///< cosine of the half angle; -1 where no bound is known

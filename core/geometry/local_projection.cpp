@@ -172,13 +172,25 @@ Projection project_local(const Surface& surface, const Vec3& r, const SurfacePla
   return Descent(surface, r, start, limits).run();
 }
 
+namespace {
+
+/// Directions in which a projection is held where the surface does end.
+int held_at_ends(const Surface& surface, const Projection& projection) {
+  const std::uint32_t ends = surface.span(projection.place.span).ends;
+  const bool seam_u = (ends & (projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU)) != 0;
+  const bool seam_v = (ends & (projection.place.v <= 0.5 ? kSeamAtLowV : kSeamAtHighV)) != 0;
+  return (projection.fixed_u && !seam_u ? 1 : 0) + (projection.fixed_v && !seam_v ? 1 : 0);
+}
+
+}  // namespace
+
 Foot foot_of(const Surface& surface, const Projection& projection, double probe_radius) {
   Foot foot;
   foot.patch = surface.span(projection.place.span).patch;
   foot.u = projection.place.u;
   foot.v = projection.place.v;
   foot.point = projection.at.s;
-  const int fixed = (projection.fixed_u ? 1 : 0) + (projection.fixed_v ? 1 : 0);
+  const int fixed = held_at_ends(surface, projection);
   foot.kind = fixed == 0 ? FootKind::interior : fixed == 1 ? FootKind::edge : FootKind::corner;
   if (foot.kind == FootKind::interior) {
     foot.normal = surface.normal(projection.place, projection.at);

@@ -24,7 +24,8 @@ struct Projection {
 [[nodiscard]] Projection project_local(const Surface& surface, const Vec3& r, const SurfacePlace& start,
                                        const ParameterLimits& limits = {});
 
-/// The foot that a projection stands for. `probe_radius` [mm] is subtracted from the distance.
+/// The foot that a projection stands for. `probe_radius` [mm] is subtracted from the distance. A foot that is held at a
+/// seam is interior: the neighbour continues the surface there, but for a gap or a bend within the design's accuracy.
 [[nodiscard]] Foot foot_of(const Surface& surface, const Projection& projection, double probe_radius);
 
 }  // namespace bladefit

@@ -171,7 +171,8 @@ TEST(DesignImage, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([&](auto& b) { patch(b)->rational = 0; }));
   EXPECT_TRUE(refused([&](auto& b) { span(b)->patch = 1; }));
   EXPECT_TRUE(refused([&](auto& b) { span(b)->ends = 0; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->ends |= 16U; }));
+  EXPECT_TRUE(refused([&](auto& b) { span(b)->ends |= 256U; }));
+  EXPECT_TRUE(refused([&](auto& b) { span(b)->ends = (span(b)->ends & 15U) | ((~span(b)->ends & 15U) << 4U); }));
   EXPECT_TRUE(refused([&](auto& b) { leaf(b)->node = leaf(b)[1].node; }));
   EXPECT_TRUE(refused([&](auto& b) { leaf(b)->span = 1; }));
   EXPECT_TRUE(refused([&](auto& b) { leaf(b)->s_max = 0.75; }));

@@ -13,6 +13,7 @@
 #include "tools/design/design_error.hpp"
 #include "tools/design/leaf_subdivision.hpp"
 #include "tools/design/normal_cone.hpp"
+#include "tools/design/seams.hpp"
 
 namespace bladefit {
 namespace {
@@ -166,6 +167,8 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   copy_array(parts.nodes, header.nodes_offset, image);
   copy_array(parts.breaks, header.breaks_offset, image);
   copy_array(parts.coefficients, header.coefficients_offset, image);
+  seal(image);
+  mark_seams(image);
   seal(image);
   return image;
 }
