@@ -71,12 +71,12 @@ Context connected(std::uint16_t port, int unit = 1) {
 
 bool reads_the_map(modbus_t* context) {
   std::array<std::uint16_t, kPanelRegisters> registers{};
-  std::array<std::uint16_t, kPanelPlaces * kPlaceRegisters> places{};
+  std::array<std::uint16_t, kExtensionRegisters> places{};
   const PanelImage expected = encode_panel(known_state());
   return modbus_read_input_registers(context, 0, kPanelRegisters, registers.data()) == kPanelRegisters &&
          modbus_read_input_registers(context, kPlaceBase, static_cast<int>(places.size()), places.data()) ==
              static_cast<int>(places.size()) &&
-         registers == expected.registers && places == expected.places;
+         registers == expected.registers && places == expected.extension;
 }
 
 int raw_connection(std::uint16_t port) {
