@@ -51,9 +51,10 @@ std::string parse_path(const CsvPlace& place, std::string_view cell, ProbePoint&
 
 std::string parse_weight(const CsvPlace& place, std::string_view cell, ProbePoint& point) {
   const std::optional<double> weight = parse_finite(cell);
-  if (!weight || !(*weight > 0.0))
+  if (!weight || !(*weight > 0.0)) {
     return place.say(
         fmt::format("column weight: {} is not a number above 0; leave points out by --subset", quoted(cell)));
+  }
   point.weight = *weight;
   return {};
 }
