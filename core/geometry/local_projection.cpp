@@ -174,12 +174,20 @@ Projection project_local(const Surface& surface, const Vec3& r, const SurfacePla
 
 namespace {
 
-/// Directions in which a projection is held where the surface does end.
+/// At a seam the offset may lean across it by this much [half diagonals] for a gap, and by this share for a bend.
+constexpr double kSeamGap = 1e-4, kSeamBend = 0.05;
+
+/// Directions in which a projection is held where the surface does end. One that is held at a seam but leans far across
+/// it is no foot of the whole surface, only of its patch: it stays on an edge.
 int held_at_ends(const Surface& surface, const Projection& projection) {
   const std::uint32_t ends = surface.span(projection.place.span).ends;
-  const bool seam_u = (ends & (projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU)) != 0;
-  const bool seam_v = (ends & (projection.place.v <= 0.5 ? kSeamAtLowV : kSeamAtHighV)) != 0;
-  return (projection.fixed_u && !seam_u ? 1 : 0) + (projection.fixed_v && !seam_v ? 1 : 0);
+  const double most = kSeamGap * surface.half_diagonal() + kSeamBend * projection.offset.norm();
+  const auto held = [&](bool fixed, const Vec3& tangent, std::uint32_t seam) {
+    const bool upright = std::abs(projection.offset.dot(tangent)) <= most * tangent.norm();
+    return fixed && !((ends & seam) != 0 && upright) ? 1 : 0;
+  };
+  return held(projection.fixed_u, projection.at.s_u, projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU) +
+         held(projection.fixed_v, projection.at.s_v, projection.place.v <= 0.5 ? kSeamAtLowV : kSeamAtHighV);
 }
 
 }  // namespace
@@ -194,7 +202,9 @@ Foot foot_of(const Surface& surface, const Projection& projection, double probe_
   foot.kind = fixed == 0 ? FootKind::interior : fixed == 1 ? FootKind::edge : FootKind::corner;
   if (foot.kind == FootKind::interior) {
     foot.normal = surface.normal(projection.place, projection.at);
-    foot.distance = foot.normal.dot(projection.offset) - probe_radius;
+    const double along = foot.normal.dot(projection.offset);
+    const bool at_seam = projection.fixed_u || projection.fixed_v;
+    foot.distance = (at_seam ? std::copysign(projection.offset.norm(), along) : along) - probe_radius;
   } else {
     const double length = projection.offset.norm();
     foot.normal = projection.offset / length;

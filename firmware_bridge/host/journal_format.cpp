@@ -39,7 +39,7 @@ bool record_is_whole(const JournalRecord& record, std::uint32_t place) {
 }
 
 StreamEvent event_of(const JournalRecord& record) {
-  return {record.kind, {record.sequence, record.path, record.position, record.approach, record.weight, record.time_us}};
+  return {record.kind, {record.sequence, record.path, record.position, record.approach, record.time_us, record.weight}};
 }
 
 }  // namespace bladefit

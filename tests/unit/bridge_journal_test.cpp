@@ -135,9 +135,9 @@ TEST(BridgeJournal, RefusesForeignFilesAndOtherVersions) {
   write_bytes_to(path, std::string(100, 'x'));
   EXPECT_EQ(read_journal(path, content).fault, Fault::bad_input);
   JournalHeader header = make_journal_header(kIdentity, kRun);
-  header.version = 2;
+  header.version = kJournalVersion + 1;
   write_bytes_to(path, std::string(reinterpret_cast<const char*>(&header), sizeof header));
-  EXPECT_NE(read_journal(path, content).message.find("version 2"), std::string::npos);
+  EXPECT_NE(read_journal(path, content).message.find("version 3"), std::string::npos);
   EXPECT_FALSE(read_journal(folder / "missing.bin", content));
   EXPECT_FALSE(content.exists);
 }
