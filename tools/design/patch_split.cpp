@@ -7,7 +7,7 @@ namespace bladefit {
 namespace {
 
 using Extended = long double;
-using Homogeneous = Eigen::Matrix<Extended, 4, 1>;
+using ExtendedPoint = Eigen::Matrix<Extended, 4, 1>;
 
 /// Parameters nearer to a knot than this part of the range mean the knot.
 constexpr Extended kSameKnot = 1e-12L;
@@ -16,7 +16,7 @@ constexpr Extended kSameKnot = 1e-12L;
 struct Curve {
   std::size_t degree = 0;
   std::vector<Extended> knots;
-  std::vector<Homogeneous> points;
+  std::vector<ExtendedPoint> points;
 };
 
 /// Inserts the knot `t` once. Its interval is the one to the right of `t`, at the end of the range the one to the left.
@@ -26,7 +26,7 @@ void insert_knot(Curve& curve, Extended t) {
   const auto behind =
       at_end ? std::lower_bound(begin, curve.knots.end(), t) : std::upper_bound(begin, curve.knots.end(), t);
   const auto k = static_cast<std::size_t>(behind - begin) - 1;
-  std::vector<Homogeneous> points(curve.points.begin(), curve.points.begin() + static_cast<std::ptrdiff_t>(k + 1));
+  std::vector<ExtendedPoint> points(curve.points.begin(), curve.points.begin() + static_cast<std::ptrdiff_t>(k + 1));
   for (std::size_t i = k - curve.degree + 1; i <= k; ++i) {
     const Extended alpha = (t - curve.knots[i]) / (curve.knots[i + curve.degree] - curve.knots[i]);
     points[i] = (1 - alpha) * curve.points[i - 1] + alpha * curve.points[i];
@@ -70,11 +70,11 @@ Extended parameter_at(const SurfaceDirection& direction, double normalised) {
 }
 
 /// The net as curves along u, one for each control point in v.
-std::vector<std::vector<Homogeneous>> curves_of(const NurbsSurface& surface) {
+std::vector<std::vector<ExtendedPoint>> curves_of(const NurbsSurface& surface) {
   const auto count_v = static_cast<std::size_t>(surface.v.control_points);
-  std::vector<std::vector<Homogeneous>> curves(count_v);
+  std::vector<std::vector<ExtendedPoint>> curves(count_v);
   for (std::size_t k = 0; k < surface.control_points.size(); ++k) {
-    Homogeneous point;
+    ExtendedPoint point;
     point << surface.control_points[k].cast<Extended>() * surface.weights[k], surface.weights[k];
     curves[k % count_v].push_back(point);
   }
@@ -82,14 +82,14 @@ std::vector<std::vector<Homogeneous>> curves_of(const NurbsSurface& surface) {
 }
 
 /// The part of the net over an interval of one direction; the direction is changed to that of the part.
-std::vector<std::vector<Homogeneous>> restrict_curves(const std::vector<std::vector<Homogeneous>>& curves,
-                                                      SurfaceDirection& direction, double low, double high) {
+std::vector<std::vector<ExtendedPoint>> restrict_curves(const std::vector<std::vector<ExtendedPoint>>& curves,
+                                                        SurfaceDirection& direction, double low, double high) {
   const Extended from = parameter_at(direction, low);
   const Extended to = parameter_at(direction, high);
   const std::vector<Extended> knots(direction.knots.begin(), direction.knots.end());
-  std::vector<std::vector<Homogeneous>> parts;
+  std::vector<std::vector<ExtendedPoint>> parts;
   Curve part;
-  for (const std::vector<Homogeneous>& curve : curves) {
+  for (const std::vector<ExtendedPoint>& curve : curves) {
     part = restricted({static_cast<std::size_t>(direction.degree), knots, curve}, from, to);
     parts.push_back(part.points);
   }
@@ -100,9 +100,9 @@ std::vector<std::vector<Homogeneous>> restrict_curves(const std::vector<std::vec
   return parts;
 }
 
-std::vector<std::vector<Homogeneous>> transposed(const std::vector<std::vector<Homogeneous>>& curves) {
-  std::vector<std::vector<Homogeneous>> result(curves.front().size());
-  for (const std::vector<Homogeneous>& curve : curves) {
+std::vector<std::vector<ExtendedPoint>> transposed(const std::vector<std::vector<ExtendedPoint>>& curves) {
+  std::vector<std::vector<ExtendedPoint>> result(curves.front().size());
+  for (const std::vector<ExtendedPoint>& curve : curves) {
     for (std::size_t k = 0; k < curve.size(); ++k) result[k].push_back(curve[k]);
   }
   return result;
@@ -132,8 +132,8 @@ NurbsSurface part_of(const NurbsSurface& surface, const ParameterRectangle& part
   result.v = surface.v;
   const auto along_u = restrict_curves(curves_of(surface), result.u, part.u_min, part.u_max);
   const auto along_v = restrict_curves(transposed(along_u), result.v, part.v_min, part.v_max);
-  for (const std::vector<Homogeneous>& curve : along_v) {
-    for (const Homogeneous& point : curve) {
+  for (const std::vector<ExtendedPoint>& curve : along_v) {
+    for (const ExtendedPoint& point : curve) {
       result.control_points.emplace_back((point.head<3>() / point[3]).cast<double>());
       result.weights.push_back(static_cast<double>(point[3]));
     }
