@@ -224,14 +224,6 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   return determination_.rank == 6 ? Status::ok : Status::underdetermined;
 }
 
-Status Localizer::stage(const ProbePoint& point) {
-  if (const Status status = check(point); status != Status::ok) return status;
-  if (stored_ == config_.capacity) return Status::out_of_range;
-  Measurement measurement;
-  const StoredPoint passing = admitted(point, measurement);
-  return stage(passing, measurement);
-}
-
 void Localizer::conclude() {
   concluded_ = true;
   redetermine_ = true;

@@ -12,6 +12,14 @@ bool on_design(const Surface& surface, const SurfacePlace& place) {
 
 }  // namespace
 
+Status Localizer::stage(const ProbePoint& point) {
+  if (const Status status = check(point); status != Status::ok) return status;
+  if (stored_ == config_.capacity) return Status::out_of_range;
+  Measurement measurement;
+  const StoredPoint passing = admitted(point, measurement);
+  return stage(passing, measurement);
+}
+
 Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start) {
   if (const Status status = check(point); status != Status::ok) return status;
   if (stored_ == config_.capacity || !on_design(surface_, start)) return Status::out_of_range;
