@@ -103,45 +103,6 @@ TEST(BridgeCAbiSession, RunsFromC) {
       BLADEFIT_NOT_ENOUGH_MEMORY);
 }
 
-/// The smallest tolerance of truth/full.json, with the points that prove it.
-TEST(BridgeCAbiSession, FollowsAnyMode) {
-  const std::vector<ProbePoint> points = testing::measured_points(2000);
-  bladefit_config config = c_defaults();
-  config.capacity = 2000;
-  config.mode = BLADEFIT_MIN_TOLERANCE;
-  config.ratio = 0;
-  config.box_count = 1;
-  config.boxes[0] = {0.4, 0.6, 0.0, 1.0, 0, 0};
-  const std::vector<std::byte>& design = testing::blade_bytes();
-  const std::size_t size = bladefit_memory_required(&config, design.data(), design.size());
-  ASSERT_GT(size, 0U);
-  const Memory memory = take_memory(size);
-  bladefit_handle* handle = nullptr;
-  ASSERT_EQ(bladefit_init(memory.get(), size, design.data(), design.size(), &config, &handle), BLADEFIT_OK);
-  for (const ProbePoint& from : points) {
-    bladefit_point point{sizeof(bladefit_point), from.sequence, 0, 0, {}, {}, 0};
-    std::ranges::copy(from.position, point.position);
-    std::ranges::copy(from.approach, point.approach);
-    bladefit_verdict verdict = empty_verdict();
-    ASSERT_GE(bladefit_push(handle, &point, &verdict), 0);
-  }
-  bladefit_fit_report report{};
-  report.struct_size = sizeof report;
-  ASSERT_EQ(bladefit_fit(handle, &report), BLADEFIT_OK);
-  EXPECT_NEAR(report.smallest_tolerance_mm, 0.02010, 2e-4);
-  ASSERT_EQ(bladefit_conclude(handle), BLADEFIT_OK);
-  ASSERT_EQ(bladefit_refine(handle, 10000000), BLADEFIT_OK);
-  ASSERT_EQ(bladefit_fit(handle, &report), BLADEFIT_OK);
-  EXPECT_NEAR(report.smallest_tolerance_mm, 0.02010, 1e-5);
-  EXPECT_EQ(report.improving, 0U);
-  ASSERT_EQ(report.certificate.count, 7U);
-  EXPECT_LT(report.stationarity, 1e-9);
-  for (std::uint32_t k = 0; k < report.certificate.count; ++k) {
-    EXPECT_GE(report.certificate.sequence[k], 1U);
-    EXPECT_GE(report.certificate.multiplier[k], 0.0);
-  }
-}
-
 TEST(BridgeCAbiText, EveryStatusHasOne) {
   EXPECT_EQ(bladefit_abi_version(), BLADEFIT_ABI_VERSION);
   for (int status = -40; status < 20; ++status) {
