@@ -76,8 +76,7 @@ std::size_t Localizer::memory_required(const LocalizerConfig& config) {
 }
 
 Localizer::Localizer(const DesignImage& design, const LocalizerConfig& config) : surface_(design), config_(config) {
-  const ImageHeader& h = design.header();
-  for (int k = 0; k < 3; ++k) frame_.pivot[k] = 0.5 * (h.box_min[k] + h.box_max[k]);
+  frame_.pivot = middle_of(design.header());
   frame_.length = surface_.half_diagonal();
   if (config_.determined_mm == 0.0) config_.determined_mm = 1e-3 * frame_.length;
 }
@@ -145,17 +144,18 @@ Status Localizer::check(const ProbePoint& point) const {
   return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
 }
 
-Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& pose) const {
+Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& pose, Search search) const {
   Measurement m;
   m.r = apply(pose, point.position);
-  const ProjectionQuery query{m.r, pose.rotation * point.approach, kSearchMargin * frame_.length};
+  ProjectionQuery query{m.r, pose.rotation * point.approach};
   m.projection = project_local(surface_, m.r, {point.span, point.foot.u, point.foot.v});
   const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
                         !faces_probe(surface_, m.projection, query.approach);
   // Distances change by no more than the point moves, so within half its lead no rival that was there can have come
   // nearer than the tracked foot. A newborn one could: refine() ends with a search of every foot.
-  const bool far = 2.0 * (m.r - point.searched_at).norm() >= point.lead;
-  if (doubtful || far) {
+  const bool far = search == Search::past_lead && 2.0 * (m.r - point.searched_at).norm() >= point.lead;
+  if (doubtful || far || search == Search::always) {
+    if (search == Search::past_lead) query.margin = kSearchMargin * frame_.length;
     const GlobalProjection global = project_global(surface_, query, &m.projection);
     const Vec3 jump = global.nearest.at.s - m.projection.at.s;
     m.changed = !m.projection.converged || jump.norm() > 1e-8 * frame_.length;
@@ -181,15 +181,9 @@ StoredPoint Localizer::made_from(const ProbePoint& point, const SurfacePlace& st
   return stored;
 }
 
-StoredPoint Localizer::admitted(const ProbePoint& point, Measurement& measurement) const {
-  const StoredPoint stored = made_from(point, last_place_);
-  measurement = measure(stored, pose_);
-  return stored;
-}
-
 bool Localizer::outside_window(const StoredPoint& point) const {
   if (config_.window_low <= 0.0 && config_.window_high >= 1.0) return false;
-  const Foot foot = measure(point, config_.start).foot;
+  const Foot foot = measure(point, config_.start, Search::always).foot;
   const auto outside = [this](double t) { return t < config_.window_low || t > config_.window_high; };
   return outside(foot.u) || outside(foot.v);
 }
@@ -202,8 +196,8 @@ bool Localizer::left_out(const StoredPoint& point, const Foot& foot) const {
 Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   if (const Status status = check(point); status != Status::ok) return status;
   refinement_.active = concluded_ = converged_ = regions_held_ = infeasible_ = false;
-  Measurement measurement;
-  StoredPoint passing = admitted(point, measurement);
+  StoredPoint passing = made_from(point, last_place_);
+  const Measurement measurement = measure(passing, pose_, Search::past_lead);
   StoredPoint* place = store(passing, measurement);
   settle();
   const bool worn = motion_between(settled_.model.reference, pose_, frame_).norm() > kWornBeyond * frame_.length;
@@ -213,9 +207,10 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
 
   StoredPoint& own = place != nullptr ? *place : passing;
   if (place == nullptr) note(passing, measurement);
-  if (place != nullptr && tracker_.active()) look_at(static_cast<std::uint32_t>(place - points_), measure(own, pose_));
+  if (place != nullptr && tracker_.active())
+    look_at(static_cast<std::uint32_t>(place - points_), measure(own, pose_, Search::past_lead));
   follow_bounds();
-  note(own, measure(own, pose_));
+  note(own, measure(own, pose_, Search::past_lead));
   judge(own);
   own.told_state = own.state;
   own.told_action = own.action;

@@ -166,15 +166,24 @@ class Localizer {
     std::uint32_t last_count = 0;
     Pose last_pose;
     Vec6 last_step = Vec6::Zero();
+    Pose rows_pose;        ///< of the sweep before
+    double travelled = 0;  ///< from there to that of this sweep [mm]
   };
 
   [[nodiscard]] Status check(const ProbePoint& point) const;
   [[nodiscard]] bool outside_window(const StoredPoint& point) const;
   [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const;
-  [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose) const;
+  /// When the foot of a stored point is searched globally, and not only tracked from where it was.
+  enum class Search : std::uint8_t {
+    if_doubtful,  ///< where tracking ends on an edge, on no minimum or averted from the probe
+    past_lead,    ///< there too, and where the point has moved so far that a rival may be nearer; finds a new lead
+    always
+  };
+  [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose, Search search) const;
+  [[nodiscard]] Search sweep_search(const StoredPoint& point) const;
   [[nodiscard]] StoredPoint made_from(const ProbePoint& point, const SurfacePlace& start) const;
-  [[nodiscard]] StoredPoint admitted(const ProbePoint& point, Measurement& measurement) const;
-  Status stage(const StoredPoint& passing, const Measurement& measurement);
+  void stage(const StoredPoint& passing, Search search);
+  void count_in(const StoredPoint& point, const Measurement& measurement);
   StoredPoint* store(const StoredPoint& point, const Measurement& measurement);
   StoredPoint* keep(std::uint32_t index, const StoredPoint& point, const Measurement& measurement);
   [[nodiscard]] std::uint32_t place_to_give_up();

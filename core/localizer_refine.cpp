@@ -10,6 +10,9 @@ constexpr std::uint32_t kMaxSweeps = 100;
 /// Steps [half diagonals]: a larger one must lower the sum of squares; a smaller one means convergence.
 constexpr double kCheckedAbove = 1e-6;
 constexpr double kConvergedBelow = 1e-12;
+/// While the pose travels further than this between two sweeps [half diagonals], feet are searched anew: tracked ones
+/// would be left on the wrong side of thin places, and the fit led to another optimum.
+constexpr double kTravelsBeyond = 1e-3;
 
 }  // namespace
 
@@ -18,6 +21,14 @@ void Localizer::begin_sweep() {
   filling_.model = shifted(frozen_.model, pose_, frame_);
   cursor_ = 0;
   if (refinement_.bounded) bounded_.set_basis(free_motions(pose_, config_.locked, frame_));
+  refinement_.travelled = motion_between(refinement_.rows_pose, pose_, frame_).norm();
+  refinement_.rows_pose = pose_;
+}
+
+/// Points that were staged from a place are tracked until the last sweep: their lead is infinite.
+Localizer::Search Localizer::sweep_search(const StoredPoint& point) const {
+  const bool travels = refinement_.travelled > kTravelsBeyond * frame_.length && std::isfinite(point.lead);
+  return refinement_.thorough || travels ? Search::always : Search::if_doubtful;
 }
 
 /// The last step made the sum of squares larger: go back and take a quarter of it. False when it did not.
@@ -81,16 +92,16 @@ Status Localizer::refine(std::uint32_t max_points) {
     certificate_ = Certificate();
     redetermine_ = true;
     settle_all();
+    refinement_.rows_pose = pose_;
     solve();
     begin_sweep();
   }
   Status status = Status::more_work;
   for (std::uint32_t k = 0; k < max_points; ++k) {
-    if (refinement_.thorough) points_[cursor_].lead = 0.0;
-    const Measurement m = measure(points_[cursor_], pose_);
+    const Measurement m = measure(points_[cursor_], pose_, sweep_search(points_[cursor_]));
     if (m.changed) ++refinement_.changed;
     if (!m.proven) ++refinement_.unproven;
-    review(cursor_, m);
+    note(points_[cursor_], m);
     include(filling_, points_[cursor_], m, Vec6::Zero());
     if (refinement_.bounded) include_row(cursor_, m);
     ++cursor_;

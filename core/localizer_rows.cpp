@@ -38,10 +38,14 @@ void Localizer::note(StoredPoint& point, const Measurement& m) {
   point.lead = m.lead;
 }
 
-StoredPoint* Localizer::store(const StoredPoint& point, const Measurement& m) {
+void Localizer::count_in(const StoredPoint& point, const Measurement& m) {
   last_sequence_ = point.sequence;
   last_place_ = m.projection.place;
   ++accepted_;
+}
+
+StoredPoint* Localizer::store(const StoredPoint& point, const Measurement& m) {
+  count_in(point, m);
   if (stored_ < config_.capacity) {
     order_[stored_] = stored_;
     return keep(stored_++, point, m);
@@ -85,7 +89,7 @@ std::uint32_t Localizer::place_to_give_up() {
 /// Cost: one projection, and moving up to `capacity` indices.
 void Localizer::give_up(std::uint32_t index) {
   const StoredPoint& point = points_[index];
-  const Measurement m = measure(point, pose_);
+  const Measurement m = measure(point, pose_, Search::past_lead);
   include(frozen_, point, m);
   if (index >= cursor_) include(filling_, point, m);
   const auto by_sequence = [this](std::uint32_t i, std::uint32_t sequence) { return points_[i].sequence < sequence; };
@@ -106,7 +110,7 @@ void Localizer::settle_one(std::uint32_t place) {
   --fresh_count_;
   --active_count_;
   point.fresh = false;
-  const Measurement m = measure(point, pose_);
+  const Measurement m = measure(point, pose_, Search::past_lead);
   note(point, m);
   include(settled_, point, m);
   if (index < cursor_) include(filling_, point, m);
@@ -138,7 +142,7 @@ void Localizer::gather(const Measurement& newest) {
       include(current_, point, newest, x);
       continue;
     }
-    const Measurement m = measure(point, pose_);
+    const Measurement m = measure(point, pose_, Search::past_lead);
     review(fresh_[k], m);
     include(current_, point, m, x);
   }
@@ -163,7 +167,7 @@ void Localizer::refresh(std::uint32_t budget) {
   for (std::uint32_t k = 0; k < budget && cursor_ < stored_; ++k, ++cursor_) {
     StoredPoint& point = points_[cursor_];
     if (point.fresh) continue;
-    const Measurement m = measure(point, pose_);
+    const Measurement m = measure(point, pose_, Search::past_lead);
     review(cursor_, m);
     if (contested(point) && fresh_count_ + kNewest < kFreshPlaces) {
       make_fresh(cursor_);  // its old row is still in the sums in use: it becomes active when they are given up

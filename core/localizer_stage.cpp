@@ -15,9 +15,8 @@ bool on_design(const Surface& surface, const SurfacePlace& place) {
 Status Localizer::stage(const ProbePoint& point) {
   if (const Status status = check(point); status != Status::ok) return status;
   if (stored_ == config_.capacity) return Status::out_of_range;
-  Measurement measurement;
-  const StoredPoint passing = admitted(point, measurement);
-  return stage(passing, measurement);
+  stage(made_from(point, last_place_), Search::always);
+  return Status::ok;
 }
 
 Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start) {
@@ -25,19 +24,26 @@ Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start)
   if (stored_ == config_.capacity || !on_design(surface_, start)) return Status::out_of_range;
   StoredPoint passing = made_from(point, start);
   passing.lead = std::numeric_limits<double>::infinity();  // no motion makes the foot doubtful
-  return stage(passing, measure(passing, pose_));
+  stage(passing, Search::if_doubtful);
+  return Status::ok;
 }
 
-Status Localizer::stage(const StoredPoint& passing, const Measurement& measurement) {
+void Localizer::stage(const StoredPoint& passing, Search search) {
   refinement_.active = converged_ = regions_held_ = infeasible_ = false;
   stop_trackers();
   redetermine_ = true;
-  StoredPoint& own = *store(passing, measurement);
   settle_all();
+  const Measurement measurement = measure(passing, pose_, search);
+  count_in(passing, measurement);
+  order_[stored_] = stored_;
+  StoredPoint& own = points_[stored_++];
+  own = passing;
+  note(own, measurement);
+  include(settled_, own, measurement);
+  current_ = settled_;
   judge(own);
   own.told_state = own.state;
   own.told_action = own.action;
-  return Status::ok;
 }
 
 }  // namespace bladefit

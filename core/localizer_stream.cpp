@@ -92,7 +92,7 @@ void Localizer::look_at(std::uint32_t index, const Measurement& m) {
   bool violated = tracker_.violated(m.foot.distance, weight) && !tracker_.holds(index);
   if (violated) tracker_.hold(index);
   if (least_.active() && !least_.holds(index)) {
-    const Foot foot = measure(points_[index], least_.pose()).foot;
+    const Foot foot = measure(points_[index], least_.pose(), Search::past_lead).foot;
     if (least_.violated(foot.distance, bound_weight(foot))) {
       least_.hold(index);
       violated = true;
@@ -109,7 +109,7 @@ bool Localizer::follow(BoundTracker& tracker) {
     const MotionBasis basis = free_motions(pose, config_.locked, frame_);
     for (std::uint32_t place = 0; place < tracker.count(); ++place) {
       const StoredPoint& point = points_[tracker.point(place)];
-      const Measurement m = measure(point, pose);
+      const Measurement m = measure(point, pose, Search::past_lead);
       if (left_out(point, m.foot)) {
         tracker.skip_row(place);
       } else {

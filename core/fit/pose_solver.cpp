@@ -37,14 +37,19 @@ Determination determine(const QuadraticModel& model, double threshold, const Mot
 
 Vec6 minimum_of(const QuadraticModel& model, const Determination& determination, const Vec6& x0) {
   if (determination.rank == 0) return x0;
+  const bool whole = determination.rank == 6 && determination.locked == 0;
   const Mat6& p = determination.projector;
-  const Mat6 rest = Mat6::Identity() - p;
+  // Where every direction is determined, the projector is the unit matrix.
+  const auto projected = [&](const Mat6& m) { return whole ? m : Mat6(p * m * p + (Mat6::Identity() - p)); };
+  const auto step = [&](const Cholesky& factor, const Vec6& gradient) {
+    return whole ? factor.solve(gradient) : Vec6(p * factor.solve(p * gradient));
+  };
   const Mat6 hessian = model.gauss + model.bend;
-  const Vec6 gradient = p * (model.gradient + hessian * x0);
-  const Cholesky newton(p * hessian * p + rest);
-  if (newton.positive_definite()) return x0 - p * newton.solve(gradient);
-  const Cholesky gauss(p * model.gauss * p + rest);
-  return gauss.positive_definite() ? Vec6(x0 - p * gauss.solve(gradient)) : x0;
+  const Vec6 gradient = model.gradient + hessian * x0;
+  const Cholesky newton(projected(hessian));
+  if (newton.positive_definite()) return x0 - step(newton, gradient);
+  const Cholesky gauss(projected(model.gauss));
+  return gauss.positive_definite() ? Vec6(x0 - step(gauss, gradient)) : x0;
 }
 
 Mat6 unit_covariance(const QuadraticModel& model, const Determination& determination, double ridge) {

@@ -52,10 +52,8 @@ void add_surface_bend(const Projection& p, const Vec3& n, const Lever& lever, Ma
   const double k_uu = x_uu * m_vv - x_uv * m_uv, k_uv = x_uv * m_uu - x_uu * m_uv;
   const double k_vv = x_vv * m_uu - x_vu * m_uv;
   const Vec6 l_u = lever(s.s_u), l_v = lever(s.s_v);
-  add_outer(bend, -k_uu / det, l_u, l_u);
-  add_outer(bend, -k_vv / det, l_v, l_v);
-  add_outer(bend, -k_uv / det, l_u, l_v);
-  add_outer(bend, -k_uv / det, l_v, l_u);
+  add_outer(bend, -1.0 / det, l_u, k_uu * l_u + k_uv * l_v);
+  add_outer(bend, -1.0 / det, l_v, k_uv * l_u + k_vv * l_v);
 }
 
 /// (I - n n' - t t' / (t.t - e.S_tt)) / |e| on an edge with tangent t; without t at a corner.

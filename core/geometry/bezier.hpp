@@ -10,16 +10,6 @@ namespace bladefit {
 /// Homogeneous point (w x, w y, w z, w).
 using Homogeneous = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
 
-/// Value and derivatives up to the second order of a homogeneous Bezier patch in its local parameters 0..1.
-struct HomogeneousDerivatives {
-  Homogeneous a, a_u, a_v, a_uu, a_uv, a_vv;
-};
-
-/// Evaluates the net of (degree_u + 1) x (degree_v + 1) homogeneous control points, row by row in u, at local (s, t).
-/// Cost: about 80 four-vector operations for a bicubic net, which is the fast path.
-void evaluate_bezier(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, double s, double t,
-                     HomogeneousDerivatives& out);
-
 inline constexpr std::size_t kMaxOrder = kMaxDegree + 1;
 
 /// Control net held on the stack, row by row in u.

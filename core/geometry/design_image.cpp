@@ -5,10 +5,14 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/geometry/bezier.hpp"
+#include "core/geometry/bounding_tree.hpp"
+#include "core/geometry/taylor.hpp"
 
 namespace bladefit {
 namespace {
+
+/// Coefficients of a Taylor form may differ from their own by this share of the largest control point.
+constexpr double kTaylorRounding = 1e-12;
 
 constexpr std::array<std::uint32_t, 256> make_crc_table() {
   std::array<std::uint32_t, 256> table{};
@@ -106,6 +110,21 @@ bool net_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p
   return true;
 }
 
+/// The Taylor form is that of the control points, but for rounding.
+bool taylor_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p) {
+  const std::size_t count = 4U * (p.degree_u + 1) * (p.degree_v + 1);
+  const double* net = &image.coefficients()[s.first_coefficient];
+  const double* found = &image.taylor()[s.first_coefficient];
+  std::array<double, 4 * kMaxOrder * kMaxOrder> expected;
+  taylor_form(net, p.degree_u, p.degree_v, expected.data());
+  double size = 0.0;
+  for (std::size_t k = 0; k < count; ++k) size = std::max(size, std::abs(net[k]));
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!(std::abs(found[k] - expected[k]) <= kTaylorRounding * size)) return false;
+  }
+  return true;
+}
+
 bool spans_valid(const DesignImage& image) {
   for (std::size_t i = 0; i < image.spans().size(); ++i) {
     const ImageSpan& s = image.spans()[i];
@@ -114,24 +133,7 @@ bool spans_valid(const DesignImage& image) {
     if (s.iu >= p.spans_u || s.iv >= p.spans_v ||
         i != p.first_span + static_cast<std::uint64_t>(s.iu) * p.spans_v + s.iv)
       return false;
-    if (!cone_valid(s) || !ends_valid(s, p) || !net_valid(image, s, p)) return false;
-  }
-  return true;
-}
-
-/// The control points of the rectangle are inside the leaf's box, which the search relies on.
-bool boxed(const DesignImage& image, const ImageLeaf& leaf) {
-  const ImageSpan& s = image.spans()[leaf.span];
-  const ImagePatch& p = image.patches()[s.patch];
-  const ImageNode& node = image.nodes()[leaf.node];
-  BezierNet net;
-  restrict_net(&image.coefficients()[s.first_coefficient], p.degree_u, p.degree_v,
-               {leaf.s_min, leaf.s_max, leaf.t_min, leaf.t_max}, net);
-  for (std::uint32_t n = 0; n < (p.degree_u + 1) * (p.degree_v + 1); ++n) {
-    const Homogeneous& c = net.points[n];
-    for (int k = 0; k < 3; ++k) {
-      if (!(c[k] / c[3] >= node.box_min[k] && c[k] / c[3] <= node.box_max[k])) return false;
-    }
+    if (!cone_valid(s) || !ends_valid(s, p) || !net_valid(image, s, p) || !taylor_valid(image, s, p)) return false;
   }
   return true;
 }
@@ -148,42 +150,11 @@ bool leaves_valid(const DesignImage& image) {
   for (std::size_t i = 0; i < image.leaves().size(); ++i) {
     const ImageLeaf& leaf = image.leaves()[i];
     if (leaf.span != span || !rectangle_valid(leaf) || !bounds_valid(leaf.bounds)) return false;
-    if (leaf.node >= image.nodes().size() || image.nodes()[leaf.node].right != 0 || image.nodes()[leaf.node].leaf != i)
-      return false;
-    if (!boxed(image, leaf)) return false;
     area += (leaf.s_max - leaf.s_min) * (leaf.t_max - leaf.t_min);
     if (area != 1.0) continue;
     ++span;
     area = 0.0;
     if (span == image.spans().size()) return i + 1 == image.leaves().size();
-  }
-  return false;
-}
-
-bool contains(const ImageNode& outer, const ImageNode& inner) {
-  for (int k = 0; k < 3; ++k) {
-    if (!(inner.box_min[k] >= outer.box_min[k] && inner.box_max[k] <= outer.box_max[k])) return false;
-  }
-  return true;
-}
-
-/// A full binary tree in depth-first order, boxes nested, no deeper than kMaxTreeDepth.
-bool tree_valid(std::span<const ImageNode> nodes, std::size_t leaf_count) {
-  if (nodes.size() != 2 * leaf_count - 1) return false;
-  std::array<std::uint32_t, kMaxTreeDepth> pending{};  // right children still to come, innermost last
-  std::size_t depth = 0;
-  for (std::uint32_t k = 0; k < nodes.size(); ++k) {
-    const ImageNode& node = nodes[k];
-    if (!finite3(node.box_min) || !finite3(node.box_max)) return false;
-    if (node.right == 0) {
-      if (node.leaf >= leaf_count) return false;
-      if (depth == 0) return k + 1 == nodes.size();
-      if (pending[--depth] != k + 1) return false;
-      continue;
-    }
-    if (node.right <= k + 1 || node.right >= nodes.size() || depth == pending.size()) return false;
-    if (!contains(node, nodes[k + 1]) || !contains(node, nodes[node.right])) return false;
-    pending[depth++] = node.right;
   }
   return false;
 }
@@ -198,7 +169,8 @@ Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
                       array_fits<ImageLeaf>(h.leaves_offset, h.leaf_count, h.total_size) &&
                       array_fits<ImageNode>(h.nodes_offset, h.node_count, h.total_size) &&
                       array_fits<double>(h.breaks_offset, h.break_count, h.total_size) &&
-                      array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size);
+                      array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size) &&
+                      array_fits<double>(h.taylor_offset, h.coefficient_count, h.total_size);
   const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.leaf_count >= 1 && h.node_count >= 1;
   const bool fields =
       h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && finite3(h.box_min) && finite3(h.box_max);
@@ -233,8 +205,8 @@ Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {
   candidate.nodes_ = view<ImageNode>(bytes, h.nodes_offset, h.node_count);
   candidate.breaks_ = view<double>(bytes, h.breaks_offset, h.break_count);
   candidate.coefficients_ = view<double>(bytes, h.coefficients_offset, h.coefficient_count);
-  if (!tree_valid(candidate.nodes_, candidate.leaves_.size()) || !patches_valid(candidate) || !spans_valid(candidate) ||
-      !leaves_valid(candidate))
+  candidate.taylor_ = view<double>(bytes, h.taylor_offset, h.coefficient_count);
+  if (!patches_valid(candidate) || !spans_valid(candidate) || !leaves_valid(candidate) || !tree_valid(candidate))
     return Status::bad_content;
   image = candidate;
   return Status::ok;

@@ -12,7 +12,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 3;
+inline constexpr std::uint32_t kImageVersion = 4;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -27,8 +27,9 @@ struct ImageHeader {
   std::int32_t outward;       ///< +1 or -1: outward normal = outward * (Su x Sv)
   std::uint32_t patch_count, span_count, node_count, break_count;
   std::uint32_t leaf_count, spare;  ///< spare: 0
-  std::uint64_t coefficient_count;  ///< doubles
-  std::uint64_t patches_offset, spans_offset, leaves_offset, nodes_offset, breaks_offset, coefficients_offset;
+  std::uint64_t coefficient_count;  ///< doubles, of the control points and again of the Taylor forms
+  std::uint64_t patches_offset, spans_offset, leaves_offset, nodes_offset, breaks_offset, coefficients_offset,
+      taylor_offset;
   double box_min[3], box_max[3];  ///< of the control points [mm]
 };
 
@@ -47,7 +48,8 @@ inline constexpr std::uint32_t kEndsAtLowU = 1, kEndsAtHighU = 2, kEndsAtLowV = 
 inline constexpr std::uint32_t kSeamAtLowU = 16, kSeamAtHighU = 32, kSeamAtLowV = 64, kSeamAtHighV = 128;
 
 /// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
-/// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w).
+/// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w); the coefficient of its Taylor
+/// form (taylor.hpp) of order i in s, j in t at taylor[] of the same index.
 struct ImageSpan {
   std::uint32_t patch, iu, iv;
   std::uint32_t ends;  ///< kEndsAt... bits: edges of the patch and creases; kSeamAt... bits: which edges are seams
@@ -75,20 +77,24 @@ struct ImageBounds {
 /// A rectangle of a span, so small that its bounds tell most. The leaves of a span tile it.
 struct ImageLeaf {
   std::uint32_t span;
-  std::uint32_t node;                 ///< index of its node
+  std::uint32_t node;                 ///< index of the node that it is a child of
   double s_min, s_max, t_min, t_max;  ///< parameters of the span, 0..1
   ImageBounds bounds;
 };
 
-/// Node of the binary bounding tree, in depth-first order: the left child of node k is k + 1.
+/// ImageNode::child: this bit and the index of a leaf, or no child, or the index of a node.
+inline constexpr std::uint32_t kLeafChild = 0x80000000U, kNoChild = 0xFFFFFFFFU;
+
+/// Node of the bounding tree, in depth-first order: up to four children with their boxes, about the middle of the
+/// header's box, in single precision, rounded outwards. The box of a leaf holds its control points [mm]. Where there is
+/// no child, which is behind all others, low is infinite and high minus infinite.
 struct ImageNode {
-  double box_min[3], box_max[3];  ///< contains the control points of every rectangle below it [mm]
-  std::uint32_t right;            ///< index of the right child; 0 for a leaf
-  std::uint32_t leaf;             ///< index into the leaves; 0 in inner nodes
+  float low[3][4], high[3][4];  ///< [axis][child]
+  std::uint32_t child[4];
 };
 
-static_assert(sizeof(ImageHeader) == 160 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 &&
-              sizeof(ImageBounds) == 488 && sizeof(ImageLeaf) == 528 && sizeof(ImageNode) == 56);
+static_assert(sizeof(ImageHeader) == 168 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 &&
+              sizeof(ImageBounds) == 488 && sizeof(ImageLeaf) == 528 && sizeof(ImageNode) == 112);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.
 [[nodiscard]] std::uint32_t image_crc(std::span<const std::byte> image);
@@ -108,6 +114,7 @@ class DesignImage {
   [[nodiscard]] std::span<const ImageNode> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const double> breaks() const { return breaks_; }
   [[nodiscard]] std::span<const double> coefficients() const { return coefficients_; }
+  [[nodiscard]] std::span<const double> taylor() const { return taylor_; }
 
  private:
   const ImageHeader* header_ = nullptr;
@@ -116,7 +123,7 @@ class DesignImage {
   std::span<const ImageLeaf> leaves_;
   std::span<const ImageNode> nodes_;
   std::span<const double> breaks_;
-  std::span<const double> coefficients_;
+  std::span<const double> coefficients_, taylor_;
 };
 
 }  // namespace bladefit

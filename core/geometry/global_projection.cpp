@@ -1,61 +1,70 @@
 #include "core/geometry/global_projection.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "core/geometry/bounding_tree.hpp"
 #include "core/geometry/leaf_search.hpp"
 
 namespace bladefit {
 namespace {
 
-double box_distance(const ImageNode& node, const Vec3& r) {
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double d = std::max({node.box_min[k] - r[k], r[k] - node.box_max[k], 0.0});
-    sum += d * d;
-  }
-  return std::sqrt(sum);
-}
-
-/// Depth first, the nearer child first.
-GlobalProjection search(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
+/// Children of a node that are still to be looked at, the nearest on top.
+class Pending {
+ public:
   struct Entry {
-    std::uint32_t node;
-    double distance;
+    float square;
+    std::uint32_t child;
   };
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  Entry pop() { return stack_[--size_]; }
+
+  /// Takes those of a node's children that are nearer than the threshold.
+  void push(const ImageNode& node, const BoxDistances::Four& squares, float threshold) {
+    const std::size_t first = size_;
+    for (int k = 0; k < 4; ++k) {
+      if (!(squares[k] < threshold)) continue;
+      std::size_t place = size_++;
+      for (; place > first && stack_[place - 1].square < squares[k]; --place) stack_[place] = stack_[place - 1];
+      stack_[place] = {squares[k], node.child[k]};
+    }
+  }
+
+ private:
+  std::array<Entry, 3 * kMaxTreeDepth + 4> stack_;
+  std::size_t size_ = 0;
+};
+
+/// Depth first, the nearest child first.
+GlobalProjection search(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
   NearestSoFar nearest(surface, query);
   if (hint != nullptr) nearest.consider(*hint);
-  const auto nodes = surface.image().nodes();
-  std::array<Entry, kMaxTreeDepth + 1> stack;
-  std::size_t size = 0;
-  stack[size++] = {0, box_distance(nodes[0], query.point)};
+  const BoxDistances boxes(surface.image().header(), query.point);
+  const ImageNode* nodes = surface.image().nodes().data();
+  float threshold = boxes.threshold(nearest.limit());
+  Pending pending;
+  pending.push(nodes[0], boxes.squares(nodes[0]), threshold);
   std::uint32_t pieces = 0;
   bool exhausted = false;
-  while (size > 0 && pieces < kMaxPieces) {
-    const Entry entry = stack[--size];
-    if (entry.distance >= nearest.limit()) continue;
-    const ImageNode& node = nodes[entry.node];
-    if (node.right == 0) {
-      const LeafOutcome outcome = search_leaf(surface, query, node.leaf, kMaxPieces - pieces, nearest);
-      pieces += outcome.pieces;
-      exhausted = exhausted || outcome.exhausted;
+  while (!pending.empty() && pieces < kMaxPieces) {
+    const auto [square, child] = pending.pop();
+    if (!(square < threshold)) continue;
+    if ((child & kLeafChild) == 0) {
+      pending.push(nodes[child], boxes.squares(nodes[child]), threshold);
       continue;
     }
-    Entry near{entry.node + 1, box_distance(nodes[entry.node + 1], query.point)};
-    Entry far{node.right, box_distance(nodes[node.right], query.point)};
-    if (far.distance < near.distance) std::swap(near, far);
-    stack[size++] = far;
-    stack[size++] = near;
+    const LeafOutcome outcome = search_leaf(surface, query, child & ~kLeafChild, kMaxPieces - pieces, nearest);
+    pieces += outcome.pieces;
+    exhausted = exhausted || outcome.exhausted;
+    threshold = boxes.threshold(nearest.limit());
   }
-  return nearest.result(exhausted || size > 0, pieces);
+  return nearest.result(exhausted || !pending.empty(), pieces);
 }
 
 }  // namespace
 
 bool faces_probe(const Surface& surface, const Projection& projection, const Vec3& approach) {
   if (approach.squaredNorm() < 0.5) return true;
-  return surface.normal(projection.place, projection.at).dot(approach) < 0.0;
+  return surface.outward(projection.place, projection.at).dot(approach) < 0.0;
 }
 
 GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {

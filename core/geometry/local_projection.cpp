@@ -3,6 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/geometry/span_newton.hpp"
 
 namespace bladefit {
 namespace {
@@ -13,6 +16,10 @@ constexpr int kMaxEvaluations = 60;
 constexpr double kLastStep = 1e-9;
 /// A tangential offset below this [half diagonals] counts as perpendicular.
 constexpr double kPerpendicular = 1e-11;
+/// A distance may rise by this much [half diagonals] as rounding.
+constexpr double kDistanceRounding = 1e-13;
+/// Spans that pure Newton steps may lead through.
+constexpr int kMaxSpans = 8;
 
 struct Step {
   double du = 0, dv = 0;
@@ -55,7 +62,7 @@ Step step_of(const Quadratic& q, bool hold_u, bool hold_v) {
     return step;
   }
   double det = q.h_uu * q.h_vv - q.h_uv * q.h_uv;
-  if (q.h_uu > 0.0 && det > 1e-9 * q.m_uu * q.m_vv) {
+  if (q.h_uu > 0.0 && det > kConvexDeterminant * q.m_uu * q.m_vv) {
     step.newton = true;
     step.du = -(q.h_vv * q.g_u - q.h_uv * q.g_v) / det;
     step.dv = -(q.h_uu * q.g_v - q.h_uv * q.g_u) / det;
@@ -77,7 +84,6 @@ class Descent {
   Descent(const Surface& surface, const Vec3& r, const SurfacePlace& start, const ParameterLimits& limits)
       : surface_(surface), r_(r), limits_(limits), scale_(surface.half_diagonal()) {
     result_.place = start;
-    move_to(result_.place, start.u, start.v);
     result_.at = surface_.evaluate(result_.place);
     result_.offset = r_ - result_.at.s;
   }
@@ -130,7 +136,8 @@ class Descent {
 
   bool descend(const Step& step, int& evaluations) {
     const double before = result_.distance_squared();
-    const double slack = 1e-13 * scale_ * std::sqrt(before) + 1e-26 * scale_ * scale_;
+    const double rounding = kDistanceRounding * scale_;
+    const double slack = rounding * (std::sqrt(before) + rounding);
     double fraction = 1.0;
     for (int halvings = 0; halvings < 30 && evaluations < kMaxEvaluations; ++halvings, fraction *= 0.5) {
       SurfacePlace place = result_.place;
@@ -165,11 +172,86 @@ class Descent {
   Projection result_;
 };
 
+SurfacePlace clamped_to(const ParameterLimits& limits, const SurfacePlace& p) {
+  return {p.span, std::clamp(p.u, limits.u_min, limits.u_max), std::clamp(p.v, limits.v_min, limits.v_max)};
+}
+
+/// Pure Newton steps from span to span, as long as no safeguard is needed.
+class NewtonWalk {
+ public:
+  NewtonWalk(const Surface& surface, const Vec3& r, const ParameterLimits& limits)
+      : surface_(surface), limits_(limits) {
+    task_.r = r;
+    task_.last_step = kLastStep * surface.half_diagonal();
+    task_.slack = kDistanceRounding * surface.half_diagonal();
+  }
+
+  /// True where it ends at a local minimum inside the limits. False: `start` has become the best place so far.
+  bool run(SurfacePlace& start, Projection& result) {
+    SurfacePlace place = start;
+    SpanFoot foot;
+    foot.distance_squared = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < kMaxSpans; ++k) {
+      enter(place, foot);
+      const SpanEnd end = newton_in_span(task_, foot);
+      if (foot.moved) start = clamped_to(limits_, {place.span, u_of(foot.x), v_of(foot.y)});
+      if (end == SpanEnd::converged) {
+        result.place = start;
+        result.at = scaled(foot.at, per_u_, per_v_);
+        result.offset = task_.r - result.at.s;
+        result.converged = true;
+        return true;
+      }
+      const SurfacePlace next{place.span, u_of(foot.next_x), v_of(foot.next_y)};
+      if (end == SpanEnd::stuck || !within(next)) return false;
+      place = next;
+      surface_.settle(place);
+    }
+    return false;
+  }
+
+ private:
+  void enter(const SurfacePlace& place, SpanFoot& foot) {
+    const ImagePatch& patch = surface_.patch_of(place.span);
+    domain_ = surface_.domain(place.span);
+    per_u_ = 1.0 / (domain_.u_max - domain_.u_min);
+    per_v_ = 1.0 / (domain_.v_max - domain_.v_min);
+    task_.taylor = surface_.taylor(place.span);
+    task_.degree_u = patch.degree_u;
+    task_.degree_v = patch.degree_v;
+    task_.x_min = limits_.u_min > domain_.u_min ? x_of(limits_.u_min) : -0.5;
+    task_.x_max = limits_.u_max < domain_.u_max ? x_of(limits_.u_max) : 0.5;
+    task_.y_min = limits_.v_min > domain_.v_min ? y_of(limits_.v_min) : -0.5;
+    task_.y_max = limits_.v_max < domain_.v_max ? y_of(limits_.v_max) : 0.5;
+    foot.x = x_of(place.u);
+    foot.y = y_of(place.v);
+    foot.moved = false;
+  }
+
+  [[nodiscard]] bool within(const SurfacePlace& p) const {
+    return p.u >= limits_.u_min && p.u <= limits_.u_max && p.v >= limits_.v_min && p.v <= limits_.v_max;
+  }
+  [[nodiscard]] double x_of(double u) const { return (u - domain_.u_min) * per_u_ - 0.5; }
+  [[nodiscard]] double y_of(double v) const { return (v - domain_.v_min) * per_v_ - 0.5; }
+  [[nodiscard]] double u_of(double x) const { return domain_.u_min + (x + 0.5) * (domain_.u_max - domain_.u_min); }
+  [[nodiscard]] double v_of(double y) const { return domain_.v_min + (y + 0.5) * (domain_.v_max - domain_.v_min); }
+
+  const Surface& surface_;
+  const ParameterLimits& limits_;
+  SpanTask task_;
+  SpanDomain domain_{};
+  double per_u_ = 1, per_v_ = 1;
+};
+
 }  // namespace
 
 Projection project_local(const Surface& surface, const Vec3& r, const SurfacePlace& start,
                          const ParameterLimits& limits) {
-  return Descent(surface, r, start, limits).run();
+  Projection result;
+  SurfacePlace place = clamped_to(limits, start);
+  surface.settle(place);
+  if (NewtonWalk(surface, r, limits).run(place, result)) return result;
+  return Descent(surface, r, place, limits).run();
 }
 
 namespace {

@@ -29,9 +29,12 @@ void NearestSoFar::consider(const Projection& candidate) {
   }
   const double distance = std::sqrt(candidate.distance_squared());
   if (directed_) {
-    const double facing = surface_.normal(candidate.place, candidate.at).dot(approach_);
-    if (facing >= 0.0 && facing < kAlmostFacing) rival_ = std::min(rival_, distance);
-    if (facing >= 0.0) return;
+    const Vec3 outward = surface_.outward(candidate.place, candidate.at);
+    const double facing = outward.dot(approach_);
+    if (facing >= 0.0) {
+      if (facing < kAlmostFacing * outward.norm()) rival_ = std::min(rival_, distance);
+      return;
+    }
   }
   const bool same = found_ && (candidate.at.s - nearest_.at.s).norm() <= kSameFoot * surface_.half_diagonal();
   if (found_ && distance >= distance_) {

@@ -6,6 +6,14 @@
 
 namespace bladefit {
 
+Vec3 middle_of(const ImageHeader& header) { return 0.5 * (Vec3(header.box_min) + Vec3(header.box_max)); }
+
+Surface::Surface(const DesignImage& image) : image_(image) {
+  const ImageHeader& h = image.header();
+  half_diagonal_ =
+      0.5 * std::hypot(h.box_max[0] - h.box_min[0], h.box_max[1] - h.box_min[1], h.box_max[2] - h.box_min[2]);
+}
+
 SpanDomain Surface::domain(std::uint32_t span_index) const {
   const ImageSpan& s = span(span_index);
   const ImagePatch& p = image_.patches()[s.patch];
@@ -15,15 +23,9 @@ SpanDomain Surface::domain(std::uint32_t span_index) const {
 }
 
 SurfacePoint projected(const HomogeneousDerivatives& h) {
-  const double inverse = 1.0 / h.a[3];
-  SurfacePoint out;
-  out.s = h.a.head<3>() * inverse;
-  out.s_u = (Vec3(h.a_u.head<3>()) - h.a_u[3] * out.s) * inverse;
-  out.s_v = (Vec3(h.a_v.head<3>()) - h.a_v[3] * out.s) * inverse;
-  out.s_uu = (Vec3(h.a_uu.head<3>()) - 2.0 * h.a_u[3] * out.s_u - h.a_uu[3] * out.s) * inverse;
-  out.s_uv = (Vec3(h.a_uv.head<3>()) - h.a_u[3] * out.s_v - h.a_v[3] * out.s_u - h.a_uv[3] * out.s) * inverse;
-  out.s_vv = (Vec3(h.a_vv.head<3>()) - 2.0 * h.a_v[3] * out.s_v - h.a_vv[3] * out.s) * inverse;
-  return out;
+  HomogeneousDerivatives p = h;
+  project(p);
+  return {p.a.head<3>(), p.a_u.head<3>(), p.a_v.head<3>(), p.a_uu.head<3>(), p.a_uv.head<3>(), p.a_vv.head<3>()};
 }
 
 SurfacePoint scaled(const SurfacePoint& point, double per_u, double per_v) {
@@ -40,11 +42,9 @@ SurfacePoint Surface::evaluate(const SurfacePlace& place) const {
   const SpanDomain d = domain(place.span);
   const double scale_u = 1.0 / (d.u_max - d.u_min), scale_v = 1.0 / (d.v_max - d.v_min);
   HomogeneousDerivatives h;
-  evaluate_bezier(net(place.span), p.degree_u, p.degree_v, (place.u - d.u_min) * scale_u, (place.v - d.v_min) * scale_v,
-                  h);
-  if (p.rational != 0) return scaled(projected(h), scale_u, scale_v);
-  return scaled({h.a.head<3>(), h.a_u.head<3>(), h.a_v.head<3>(), h.a_uu.head<3>(), h.a_uv.head<3>(), h.a_vv.head<3>()},
-                scale_u, scale_v);
+  evaluate_taylor(taylor(place.span), p.degree_u, p.degree_v, (place.u - d.u_min) * scale_u - 0.5,
+                  (place.v - d.v_min) * scale_v - 0.5, h);
+  return scaled(projected(h), scale_u, scale_v);
 }
 
 void Surface::settle(SurfacePlace& place) const {
@@ -66,21 +66,20 @@ SurfacePlace Surface::place_at(std::uint32_t patch, double u, double v) const {
   return place;
 }
 
-Vec3 Surface::normal(const SurfacePlace& place, const SurfacePoint& point) const {
-  const auto outward = static_cast<double>(image_.header().outward);
+Vec3 Surface::outward(const SurfacePlace& place, const SurfacePoint& point) const {
+  const auto side = static_cast<double>(image_.header().outward);
   const Vec3 cross = point.s_u.cross(point.s_v);
-  const double length = cross.norm();
-  if (length > 1e-12 * (point.s_u.squaredNorm() + point.s_v.squaredNorm())) return (outward / length) * cross;
+  const double sizes = point.s_u.squaredNorm() + point.s_v.squaredNorm();
+  if (cross.squaredNorm() > 1e-24 * sizes * sizes) return side * cross;
   SurfacePlace inside{place.span, place.u + 1e-6 * (0.5 - place.u), place.v + 1e-6 * (0.5 - place.v)};
   settle(inside);
   const SurfacePoint moved = evaluate(inside);
   const Vec3 other = moved.s_u.cross(moved.s_v);
-  return other.squaredNorm() > 0.0 ? Vec3(outward * other.normalized()) : Vec3(Vec3::UnitZ());
+  return other.squaredNorm() > 0.0 ? Vec3(side * other) : Vec3(Vec3::UnitZ());
 }
 
-double Surface::half_diagonal() const {
-  const ImageHeader& h = image_.header();
-  return 0.5 * std::hypot(h.box_max[0] - h.box_min[0], h.box_max[1] - h.box_min[1], h.box_max[2] - h.box_min[2]);
+Vec3 Surface::normal(const SurfacePlace& place, const SurfacePoint& point) const {
+  return outward(place, point).normalized();
 }
 
 }  // namespace bladefit

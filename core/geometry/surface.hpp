@@ -1,11 +1,14 @@
 #pragma once
 #include <cstdint>
 
-#include "core/geometry/bezier.hpp"
 #include "core/geometry/design_image.hpp"
 #include "core/geometry/foot.hpp"
+#include "core/geometry/taylor.hpp"
 
 namespace bladefit {
+
+/// Of the box that the header names: what single-precision boxes are about, and the pivot of motions [mm].
+[[nodiscard]] Vec3 middle_of(const ImageHeader& header);
 
 /// A place on the design: a span and normalised patch parameters inside it.
 struct SurfacePlace {
@@ -32,7 +35,7 @@ struct SpanDomain {
 /// The design surface of a validated image. A view: the image's memory must outlive it.
 class Surface {
  public:
-  explicit Surface(const DesignImage& image) : image_(image) {}
+  explicit Surface(const DesignImage& image);
 
   [[nodiscard]] const DesignImage& image() const { return image_; }
   [[nodiscard]] const ImageSpan& span(std::uint32_t index) const { return image_.spans()[index]; }
@@ -42,9 +45,13 @@ class Surface {
   [[nodiscard]] const double* net(std::uint32_t span_index) const {
     return image_.coefficients().data() + span(span_index).first_coefficient;
   }
+  /// Its Taylor form.
+  [[nodiscard]] const double* taylor(std::uint32_t span_index) const {
+    return image_.taylor().data() + span(span_index).first_coefficient;
+  }
   [[nodiscard]] SpanDomain domain(std::uint32_t span_index) const;
 
-  /// Evaluates at `place`, which must lie inside its span. Cost: one Bezier evaluation (thesis 3-4).
+  /// Evaluates at `place`, which must lie inside its span. Cost: one Taylor form (thesis 3-4).
   [[nodiscard]] SurfacePoint evaluate(const SurfacePlace& place) const;
 
   /// Sets place.span to the span of the same patch that holds (u, v), walking from the present one.
@@ -54,15 +61,19 @@ class Surface {
   /// The place at (u, v) of a patch. Cost: linear in the number of spans of a row and a column.
   [[nodiscard]] SurfacePlace place_at(std::uint32_t patch, double u, double v) const;
 
+  /// A vector along the outward normal, of no particular length: cheaper.
+  [[nodiscard]] Vec3 outward(const SurfacePlace& place, const SurfacePoint& point) const;
+
   /// Outward unit normal; where the parametrisation is degenerate (Su x Sv = 0), that of a place a little further
   /// inside.
   [[nodiscard]] Vec3 normal(const SurfacePlace& place, const SurfacePoint& point) const;
 
   /// Half the diagonal of the box of the control points [mm]: the scale of all tolerances.
-  [[nodiscard]] double half_diagonal() const;
+  [[nodiscard]] double half_diagonal() const { return half_diagonal_; }
 
  private:
   DesignImage image_;
+  double half_diagonal_;
 };
 
 }  // namespace bladefit

@@ -20,7 +20,7 @@ struct FormSample {
 
 FormSample sample(const BezierNet& net, const Vec3& r, double bound, double s, double t) {
   HomogeneousDerivatives h;
-  evaluate_bezier(net.points[0].data(), net.degree_u, net.degree_v, s, t, h);
+  evaluate_net(net.points[0].data(), net.degree_u, net.degree_v, s, t, h);
   const auto form = [&](const Homogeneous& x) {
     Homogeneous out = x;
     out.head<3>() -= x[3] * r.array();

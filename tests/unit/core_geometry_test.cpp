@@ -96,9 +96,9 @@ TEST_P(EveryDegree, RestrictedNetIsTheSamePiece) {
       restrict_net(net, p, q, rect, piece);
       const double s = uniform(random, 0, 1), t = uniform(random, 0, 1);
       HomogeneousDerivatives whole, part;
-      evaluate_bezier(net, p, q, rect.s_min + s * (rect.s_max - rect.s_min), rect.t_min + t * (rect.t_max - rect.t_min),
+      evaluate_net(net, p, q, rect.s_min + s * (rect.s_max - rect.s_min), rect.t_min + t * (rect.t_max - rect.t_min),
                       whole);
-      evaluate_bezier(piece.points[0].data(), p, q, s, t, part);
+      evaluate_net(piece.points[0].data(), p, q, s, t, part);
       EXPECT_LT((whole.a - part.a).matrix().norm(), 1e-11 * design.size());
     }
   }

@@ -161,6 +161,11 @@ TEST(DesignImage, ContradictionsAreRefused) {
   const auto span = [](auto& b) { return array_at<ImageSpan>(b, &ImageHeader::spans_offset); };
   const auto leaf = [](auto& b) { return array_at<ImageLeaf>(b, &ImageHeader::leaves_offset); };
   const auto node = [](auto& b) { return array_at<ImageNode>(b, &ImageHeader::nodes_offset); };
+  const auto last = [](auto& b) -> ImageNode& {
+    const auto count = reinterpret_cast<const ImageHeader*>(b.data())->node_count;
+    return array_at<ImageNode>(b, &ImageHeader::nodes_offset)[count - 1];
+  };
+  const auto taylor = [](auto& b) { return array_at<double>(b, &ImageHeader::taylor_offset); };
   const auto number = [](auto& b) { return array_at<double>(b, &ImageHeader::coefficients_offset); };
   const auto header = [](auto& b) { return reinterpret_cast<ImageHeader*>(b.data()); };
   EXPECT_TRUE(refused([&](auto& b) { patch(b)->degree_u = 10; }));
@@ -184,11 +189,18 @@ TEST(DesignImage, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([&](auto& b) { span(b)->first_coefficient = ~std::uint64_t{0}; }));
   EXPECT_TRUE(refused([&](auto& b) { span(b)->first_coefficient = header(b)->coefficient_count - 4; }));
   EXPECT_TRUE(refused([&](auto& b) { span(b)->cone_cosine = NAN; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->right = 1; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->right = 0; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->right = 0xFFFFFFFFU; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)[1].box_max[0] += 1e6; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->box_min[2] = NAN; }));
+  EXPECT_TRUE(refused([&](auto& b) { node(b)->child[0] = kNoChild; }));
+  EXPECT_TRUE(refused([&](auto& b) { node(b)->child[0] = 0; }));
+  EXPECT_TRUE(refused([&](auto& b) { node(b)->child[0] = 0x7FFFFFFFU; }));
+  EXPECT_TRUE(refused([&](auto& b) { node(b)->child[0] = kLeafChild; }));
+  EXPECT_TRUE(refused([&](auto& b) { last(b).child[0] = kLeafChild | 0x7FFFFFFEU; }));
+  EXPECT_TRUE(refused([&](auto& b) { last(b).child[1] = last(b).child[0]; }));
+  EXPECT_TRUE(refused([&](auto& b) { last(b).high[0][0] += 1e6F; }));
+  EXPECT_TRUE(refused([&](auto& b) { last(b).high[1][0] = last(b).low[1][0]; }));
+  EXPECT_TRUE(refused([&](auto& b) { node(b)->low[2][0] = NAN; }));
+  EXPECT_TRUE(refused([&](auto& b) { taylor(b)[0] += 1e-6; }));
+  EXPECT_TRUE(refused([&](auto& b) { taylor(b)[7] = NAN; }));
+  EXPECT_TRUE(refused([&](auto& b) { header(b)->taylor_offset = ~std::uint64_t{7}; }));
   EXPECT_TRUE(refused([&](auto& b) { number(b)[0] = NAN; }));
   EXPECT_TRUE(refused([&](auto& b) { number(b)[0] = 1e6; }));
   EXPECT_TRUE(refused([&](auto& b) { number(b)[3] = 0.0; }));

@@ -136,23 +136,43 @@ TEST(DesignExtraction, DegenerateSpanHasNoCone) {
   EXPECT_EQ(open_image(bytes).spans()[0].cone_cosine, -1);
 }
 
-TEST(DesignExtraction, TreeIsBalancedAndRepeatable) {
+std::vector<Box> scattered_boxes(std::size_t count, double spread) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-100, 100);
-  std::vector<Box> boxes(1000);
+  std::vector<Box> boxes(count);
   for (Box& box : boxes) {
     for (int axis = 0; axis < 3; ++axis) {
-      box.min[axis] = place(random);
+      box.min[axis] = std::exp(spread * place(random) / 100.0);
       box.max[axis] = box.min[axis] + 1;
     }
   }
-  const std::vector<ImageNode> nodes = build_bounding_tree(boxes);
-  ASSERT_EQ(nodes.size(), 2 * boxes.size() - 1);
-  const auto depth = [&](const auto& self, std::size_t node) -> int {
-    if (nodes[node].right == 0) return 1;
-    return 1 + std::max(self(self, node + 1), self(self, nodes[node].right));
-  };
-  EXPECT_EQ(depth(depth, 0), 11);
+  return boxes;
+}
+
+/// Levels of the tree, and how often each leaf stands in it.
+int depth_of(const std::vector<ImageNode>& nodes, std::size_t node, std::vector<int>& met) {
+  int below = 0;
+  for (const std::uint32_t child : nodes[node].child) {
+    if (child == kNoChild) continue;
+    if ((child & kLeafChild) != 0) {
+      ++met[child & ~kLeafChild];
+    } else {
+      below = std::max(below, depth_of(nodes, child, met));
+    }
+  }
+  return 1 + below;
+}
+
+/// However the boxes lie: each leaf once, and no deeper than an image may be.
+TEST(DesignExtraction, TreeHoldsEveryLeafAndIsNotDeep) {
+  for (const std::size_t count : {1U, 2U, 4U, 5U, 1000U}) {
+    for (const double spread : {0.01, 1.0, 10.0, 300.0}) {
+      const std::vector<ImageNode> nodes = build_bounding_tree(scattered_boxes(count, spread));
+      std::vector<int> met(count, 0);
+      EXPECT_LE(depth_of(nodes, 0, met), count <= 4 ? 1 : 26) << count << " boxes, spread " << spread;
+      EXPECT_EQ(met, std::vector<int>(count, 1));
+    }
+  }
 }
 
 TEST(DesignExtraction, SameDesignSameBytes) {

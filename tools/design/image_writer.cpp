@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "core/geometry/taylor.hpp"
 #include "tools/design/bezier_extraction.hpp"
 #include "tools/design/bounding_tree.hpp"
 #include "tools/design/creases.hpp"
@@ -24,7 +25,7 @@ struct ImageParts {
   std::vector<ImageSpan> spans;
   std::vector<ImageNode> nodes;
   std::vector<double> breaks;
-  std::vector<double> coefficients;
+  std::vector<double> coefficients, taylor;
   std::vector<ImageLeaf> leaves;
   std::vector<Box> boxes;  ///< one a leaf
 };
@@ -94,6 +95,9 @@ void append_spans(const BezierPatch& bezier, int outward, double near, ImagePart
     append_leaves(net, bezier, near, parts);
     parts.spans.push_back(span);
     parts.coefficients.insert(parts.coefficients.end(), net.begin(), net.end());
+    parts.taylor.resize(parts.coefficients.size());
+    taylor_form(net.data(), static_cast<std::uint32_t>(bezier.degree_u), static_cast<std::uint32_t>(bezier.degree_v),
+                &parts.taylor[span.first_coefficient]);
   }
 }
 
@@ -129,9 +133,11 @@ ImageHeader make_header(const ImageParts& parts, DesignUnit unit, int outward) {
   header.nodes_offset = header.leaves_offset + parts.leaves.size() * sizeof(ImageLeaf);
   header.breaks_offset = header.nodes_offset + parts.nodes.size() * sizeof(ImageNode);
   header.coefficients_offset = header.breaks_offset + parts.breaks.size() * sizeof(double);
-  header.total_size = header.coefficients_offset + parts.coefficients.size() * sizeof(double);
-  std::copy_n(parts.nodes.front().box_min, 3, header.box_min);
-  std::copy_n(parts.nodes.front().box_max, 3, header.box_max);
+  header.taylor_offset = header.coefficients_offset + parts.coefficients.size() * sizeof(double);
+  header.total_size = header.taylor_offset + parts.taylor.size() * sizeof(double);
+  const Box whole = box_around(parts.boxes);
+  std::copy_n(whole.min, 3, header.box_min);
+  std::copy_n(whole.max, 3, header.box_max);
   return header;
 }
 
@@ -156,7 +162,9 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   }
   parts.nodes = build_bounding_tree(parts.boxes);
   for (std::uint32_t k = 0; k < parts.nodes.size(); ++k) {
-    if (parts.nodes[k].right == 0) parts.leaves[parts.nodes[k].leaf].node = k;
+    for (const std::uint32_t child : parts.nodes[k].child) {
+      if (child != kNoChild && (child & kLeafChild) != 0) parts.leaves[child & ~kLeafChild].node = k;
+    }
   }
   const ImageHeader header = make_header(parts, unit, outward);
   std::vector<std::byte> image(header.total_size);
@@ -167,6 +175,7 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   copy_array(parts.nodes, header.nodes_offset, image);
   copy_array(parts.breaks, header.breaks_offset, image);
   copy_array(parts.coefficients, header.coefficients_offset, image);
+  copy_array(parts.taylor, header.taylor_offset, image);
   seal(image);
   mark_seams(image);
   seal(image);

@@ -224,8 +224,8 @@ ImageBounds leaf_bounds(std::span<const double> coefficients, int degree_u, int 
   const auto at_s = [&](double x) { return rect.s_min + x * (rect.s_max - rect.s_min); };
   const auto at_t = [&](double x) { return rect.t_min + x * (rect.t_max - rect.t_min); };
   HomogeneousDerivatives h;
-  evaluate_bezier(coefficients.data(), static_cast<std::uint32_t>(degree_u), static_cast<std::uint32_t>(degree_v),
-                  at_s(0.5), at_t(0.5), h);
+  evaluate_net(coefficients.data(), static_cast<std::uint32_t>(degree_u), static_cast<std::uint32_t>(degree_v),
+               at_s(0.5), at_t(0.5), h);
   ImageBounds bounds;
   set_middle(scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min), bounds);
   const auto piece = [&](int i, int j) {
