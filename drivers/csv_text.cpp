@@ -50,13 +50,4 @@ std::size_t binary_line(std::string_view text) {
   return 0;
 }
 
-std::string unknown_column(const CsvPlace& place, std::string_view cell, std::string_view line, std::string_view mend) {
-  if (line.find(';') != std::string_view::npos) {
-    return place.say(fmt::format("the columns are separated by ';'; separate them by ','"));
-  }
-  if (parse_finite(cell))
-    return place.say(fmt::format("a number, {}, stands where a column's name should; {}", quoted(cell), mend));
-  return place.say(fmt::format("unknown column {}; {}", quoted(cell), mend));
-}
-
 }  // namespace bladefit

@@ -30,8 +30,4 @@ void skip_byte_order_mark(std::string_view& text);
 /// Number of the line with the first byte that no text file has; 0 = none.
 [[nodiscard]] std::size_t binary_line(std::string_view text);
 
-/// What is wrong with a line of column names in which `cell` is none of the known ones.
-[[nodiscard]] std::string unknown_column(const CsvPlace& place, std::string_view cell, std::string_view line,
-                                         std::string_view mend);
-
 }  // namespace bladefit

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "drivers/csv_text.hpp"
-#include "drivers/text_number.hpp"
+#include "drivers/csv_table.hpp"
 #include "tools/design/design_file.hpp"
 
 namespace bladefit {
@@ -18,6 +17,7 @@ namespace {
 constexpr std::array<std::string_view, 7> kColumns = {"x", "y", "z", "design_x", "design_y", "design_z", "name"};
 constexpr std::size_t kNameColumn = 6;
 constexpr std::string_view kMend = "the first line must name the columns: [name,]x,y,z,design_x,design_y,design_z";
+constexpr CsvFormat kFormat{kColumns, kNameColumn, 0, kMend};
 /// Points whose second extent is below this share of the first stand in one line.
 constexpr double kInLine = 1e-3;
 
@@ -28,57 +28,29 @@ struct Pair {
 
 using Points = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-std::vector<std::size_t> parse_header(const CsvPlace& place, std::string_view line) {
-  std::array<bool, kColumns.size()> seen{};
-  std::vector<std::size_t> header;
-  for (const std::string_view cell : cells_of(line)) {
-    std::size_t column = 0;
-    while (column < kColumns.size() && kColumns[column] != cell) ++column;
-    if (column == kColumns.size()) throw DesignError(unknown_column(place, cell, line, kMend));
-    if (seen[column]) throw DesignError(place.say(fmt::format("column {} is named twice; {}", quoted(cell), kMend)));
-    seen[column] = true;
-    header.push_back(column);
-  }
-  for (std::size_t column = 0; column < kNameColumn; ++column) {
-    if (!seen[column]) throw DesignError(place.say(fmt::format("column '{}' is missing; {}", kColumns[column], kMend)));
-  }
-  return header;
-}
-
-Pair parse_pair(const CsvPlace& place, std::string_view line, const std::vector<std::size_t>& header) {
-  const std::vector<std::string_view> cells = cells_of(line);
-  if (cells.size() != header.size())
-    throw DesignError(place.say(fmt::format("{} columns where the first line names {}", cells.size(), header.size())));
+Pair parse_pair(const CsvRow& row) {
   Pair pair;
-  pair.name = fmt::format("line {}", place.line);
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    if (header[k] == kNameColumn) {
-      pair.name = std::string(cells[k]);
+  pair.name = fmt::format("line {}", row.place.line);
+  for (std::size_t k = 0; k < row.cells.size(); ++k) {
+    if (row.columns[k] == kNameColumn) {
+      pair.name = std::string(row.cells[k]);
       continue;
     }
-    const std::optional<double> value = parse_finite(cells[k]);
-    if (!value) {
-      throw DesignError(place.say(fmt::format("column {}: {} is not a finite number; write it like -12.345",
-                                              kColumns[header[k]], quoted(cells[k]))));
-    }
-    pair.numbers[header[k]] = *value;
+    std::string error;
+    const std::optional<double> value = finite_cell(row, k, kFormat, error);
+    if (!value) throw DesignError(error);
+    pair.numbers[row.columns[k]] = *value;
   }
   return pair;
 }
 
 std::vector<Pair> parse_pairs(std::string_view text, const std::string& name) {
-  skip_byte_order_mark(text);
-  std::vector<std::size_t> header;
   std::vector<Pair> pairs;
-  for (CsvPlace place{name, 1}; !text.empty(); ++place.line) {
-    const std::string_view line = take_line(text);
-    if (line.empty() || line.front() == '#') continue;
-    if (header.empty()) {
-      header = parse_header(place, line);
-    } else {
-      pairs.push_back(parse_pair(place, line, header));
-    }
-  }
+  const std::string error = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
+    pairs.push_back(parse_pair(row));
+    return std::string();
+  });
+  if (!error.empty()) throw DesignError(error);
   return pairs;
 }
 

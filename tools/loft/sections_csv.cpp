@@ -5,8 +5,7 @@
 #include <array>
 #include <set>
 
-#include "drivers/csv_text.hpp"
-#include "drivers/text_number.hpp"
+#include "drivers/csv_table.hpp"
 #include "tools/design/design_file.hpp"
 
 namespace bladefit {
@@ -17,27 +16,9 @@ enum Column : std::size_t { section_column, x_column, y_column, z_column, index_
 constexpr std::size_t kNeeded = 4;
 constexpr std::string_view kHeaderMend = "the first line must name the columns: section,x,y,z[,index][,r_over_R]";
 
+constexpr CsvFormat kFormat{kColumns, kNeeded, 0, kHeaderMend};
+
 [[noreturn]] void fail(const CsvPlace& place, std::string_view what) { throw DesignError(place.say(what)); }
-
-/// Column of the file -> index in kColumns.
-using Header = std::vector<std::size_t>;
-
-Header parse_header(const CsvPlace& place, std::string_view line) {
-  Header header;
-  std::array<bool, kColumns.size()> seen{};
-  for (const std::string_view cell : cells_of(line)) {
-    std::size_t column = 0;
-    while (column < kColumns.size() && kColumns[column] != cell) ++column;
-    if (column == kColumns.size()) throw DesignError(unknown_column(place, cell, line, kHeaderMend));
-    if (seen[column]) fail(place, fmt::format("column {} is named twice; {}", quoted(cell), kHeaderMend));
-    seen[column] = true;
-    header.push_back(column);
-  }
-  for (std::size_t column = 0; column < kNeeded; ++column) {
-    if (!seen[column]) fail(place, fmt::format("column '{}' is missing; {}", kColumns[column], kHeaderMend));
-  }
-  return header;
-}
 
 /// One row of the file.
 struct Row {
@@ -46,28 +27,22 @@ struct Row {
   std::optional<double> index, radius;
 };
 
-Row parse_row(const CsvPlace& place, std::string_view line, const Header& header) {
-  const std::vector<std::string_view> cells = cells_of(line);
-  if (cells.size() != header.size()) {
-    fail(place, fmt::format("{} columns where the first line names {}", cells.size(), header.size()));
-  }
+Row parse_row(const CsvRow& cells) {
   Row row;
-  for (std::size_t k = 0; k < cells.size(); ++k) {
-    const std::size_t column = header[k];
+  for (std::size_t k = 0; k < cells.cells.size(); ++k) {
+    const std::size_t column = cells.columns[k];
     if (column == section_column) {
-      row.section = cells[k];
+      row.section = cells.cells[k];
       continue;
     }
-    const std::optional<double> value = parse_finite(cells[k]);
-    if (!value) {
-      fail(place, fmt::format("column {}: {} is not a finite number; write it like -12.345", kColumns[column],
-                              quoted(cells[k])));
-    }
+    std::string error;
+    const std::optional<double> value = finite_cell(cells, k, kFormat, error);
+    if (!value) throw DesignError(error);
     if (column == index_column) row.index = value;
     if (column == radius_column) row.radius = value;
     if (column >= x_column && column <= z_column) row.point[static_cast<Eigen::Index>(column - x_column)] = *value;
   }
-  if (row.section.empty()) fail(place, "column section: it is empty; give each section a name or a number");
+  if (row.section.empty()) fail(cells.place, "column section: it is empty; give each section a name or a number");
   return row;
 }
 
@@ -110,24 +85,14 @@ class SectionCollector {
 }  // namespace
 
 BladeSections parse_sections_csv(std::string_view text, const std::string& name) {
-  skip_byte_order_mark(text);
-  if (const std::size_t line = binary_line(text); line != 0) {
-    fail({name, line}, "a control character: this is no CSV text file; give a file with the columns section,x,y,z");
-  }
   BladeSections result;
   result.file = name;
   SectionCollector collector(result);
-  Header header;
-  for (CsvPlace place{name, 1}; !text.empty(); ++place.line) {
-    const std::string_view line = take_line(text);
-    if (line.empty() || line.front() == '#') continue;
-    if (header.empty()) {
-      header = parse_header(place, line);
-    } else {
-      collector.take(place, parse_row(place, line, header));
-    }
-  }
-  if (header.empty()) throw DesignError(fmt::format("{}: the file is empty; {}", name, kHeaderMend));
+  const std::string error = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
+    collector.take(row.place, parse_row(row));
+    return std::string();
+  });
+  if (!error.empty()) throw DesignError(error);
   if (result.sections.empty()) {
     throw DesignError(fmt::format("{}: there is no point in the file; add a line for each point", name));
   }
