@@ -127,13 +127,8 @@ void add_compile_command(CLI::App& app, int& exit_code) {
   command->add_option("--outward", options->outward, "Side away from the material (default auto)")
       ->type_name("+|-|auto");
   command->callback([options, &exit_code] {
-    try {
-      compile(*options);
-      exit_code = 0;
-    } catch (const DesignError& error) {
-      fmt::print(stderr, "bladefit compile: {}\n", error.what());
-      exit_code = error.exit_code();
-    }
+    compile(*options);
+    exit_code = 0;
   });
 }
 

@@ -125,14 +125,7 @@ void add_localize_command(CLI::App& app, int& exit_code) {
       "curves: from the cubic through its path; neighbour: from the point before on its path; global: by a search. "
       "Default: from the point before, then a search");
   add_fit_options(*command, flags->fit);
-  command->callback([flags, &exit_code] {
-    try {
-      exit_code = localize(*flags);
-    } catch (const DesignError& error) {
-      fmt::print(stderr, "bladefit: {}\n", error.what());
-      exit_code = error.exit_code();
-    }
-  });
+  command->callback([flags, &exit_code] { exit_code = localize(*flags); });
 }
 
 }  // namespace bladefit

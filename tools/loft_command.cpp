@@ -85,13 +85,8 @@ void add_loft_command(CLI::App& app, int& exit_code) {
   command->add_option("--degree", settings.degree, "Degree along the sections")->capture_default_str();
   command->add_option("--span-degree", settings.span_degree, "Degree over the sections")->capture_default_str();
   command->callback([flags, &exit_code] {
-    try {
-      run_loft(*flags);
-      exit_code = 0;
-    } catch (const DesignError& error) {
-      fmt::print(stderr, "bladefit: {}\n", error.what());
-      exit_code = error.exit_code();
-    }
+    run_loft(*flags);
+    exit_code = 0;
   });
 }
 

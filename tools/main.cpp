@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tools/compile_command.hpp"
+#include "tools/design/design_error.hpp"
 #include "tools/localize_command.hpp"
 #include "tools/loft_command.hpp"
 #include "tools/panel_command.hpp"
@@ -57,6 +58,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const bladefit::DesignError& error) {
+    std::fprintf(stderr, "bladefit: %s\n", error.what());
+    return error.exit_code();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bladefit: %s\n", error.what());
     return kBadInput;

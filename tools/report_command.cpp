@@ -72,13 +72,8 @@ void add_report_command(CLI::App& app, int& exit_code) {
   command->add_option("--format", options->format, "what to write")->required()->type_name("html|csv|json");
   command->add_option("-o,--output", options->output, "file to write")->required()->type_name("OUT");
   command->callback([options, &exit_code] {
-    try {
-      report(*options);
-      exit_code = 0;
-    } catch (const DesignError& error) {
-      fmt::print(stderr, "bladefit report: {}\n", error.what());
-      exit_code = error.exit_code();
-    }
+    report(*options);
+    exit_code = 0;
   });
 }
 

@@ -180,13 +180,8 @@ void add_reproduce_command(CLI::App& app, int& exit_code) {
   command->add_option("--json", flags->json, "Write every number here; - writes to standard output")
       ->type_name("OUT.json");
   command->callback([flags, &exit_code] {
-    try {
-      run_reproduce(*flags);
-      exit_code = 0;
-    } catch (const DesignError& error) {
-      fmt::print(stderr, "bladefit: {}\n", error.what());
-      exit_code = error.exit_code();
-    }
+    run_reproduce(*flags);
+    exit_code = 0;
   });
 }
 

@@ -169,14 +169,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("run", "a live session: take points from a machine, fit and judge them");
   add_session_options(*command, *flags);
   add_fit_options(*command, flags->session.fit);
-  command->callback([flags, &exit_code] {
-    try {
-      exit_code = run(*flags);
-    } catch (const DesignError& error) {
-      fmt::print(stderr, "bladefit: {}\n", error.what());
-      exit_code = error.exit_code();
-    }
-  });
+  command->callback([flags, &exit_code] { exit_code = run(*flags); });
 }
 
 }  // namespace bladefit

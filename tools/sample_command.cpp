@@ -192,13 +192,8 @@ void add_sample_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"mm", "in"}));
   command->add_option("--outward", flags->outward, "Side away from the material: +, - or auto")->capture_default_str();
   command->callback([flags, &exit_code] {
-    try {
-      run_sample(*flags);
-      exit_code = 0;
-    } catch (const DesignError& error) {
-      fmt::print(stderr, "bladefit: {}\n", error.what());
-      exit_code = error.exit_code();
-    }
+    run_sample(*flags);
+    exit_code = 0;
   });
 }
 

@@ -209,13 +209,8 @@ void add_split_command(CLI::App& app, int& exit_code) {
   command->add_option("--outward", flags->outward, "Side away from the material: +, - or auto; for points with i,j,k")
       ->capture_default_str();
   command->callback([flags, &exit_code] {
-    try {
-      run_split(*flags);
-      exit_code = 0;
-    } catch (const DesignError& error) {
-      fmt::print(stderr, "bladefit: {}\n", error.what());
-      exit_code = error.exit_code();
-    }
+    run_split(*flags);
+    exit_code = 0;
   });
 }
 
