@@ -172,8 +172,8 @@ Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
                       array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size) &&
                       array_fits<double>(h.taylor_offset, h.coefficient_count, h.total_size);
   const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.leaf_count >= 1 && h.node_count >= 1;
-  const bool fields =
-      h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && finite3(h.box_min) && finite3(h.box_max);
+  const bool fields = h.spare == 0 && h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && finite3(h.box_min) &&
+                      finite3(h.box_max);
   return arrays && counts && fields ? Status::ok : Status::bad_content;
 }
 

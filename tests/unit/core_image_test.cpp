@@ -208,6 +208,7 @@ TEST(DesignImage, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([&](auto& b) { number(b)[3] = INFINITY; }));
   EXPECT_TRUE(refused([&](auto& b) { header(b)->outward = 0; }));
   EXPECT_TRUE(refused([&](auto& b) { header(b)->design_unit = 2; }));
+  EXPECT_TRUE(refused([&](auto& b) { header(b)->spare = 1; }));
   EXPECT_TRUE(refused([&](auto& b) { header(b)->nodes_offset = ~std::uint64_t{7}; }));
   EXPECT_TRUE(refused([&](auto& b) { header(b)->coefficient_count = ~std::uint64_t{0}; }));
   EXPECT_TRUE(refused([&](auto& b) { header(b)->patches_offset += 4; }));
