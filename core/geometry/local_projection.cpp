@@ -3,23 +3,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "core/geometry/span_newton.hpp"
+#include "core/geometry/newton_walk.hpp"
 
 namespace bladefit {
 namespace {
 
 constexpr int kMaxEvaluations = 60;
-/// Below this step [half diagonals] Newton's error is far under rounding: the rest is taken from the derivatives at
-/// hand.
-constexpr double kLastStep = 1e-9;
 /// A tangential offset below this [half diagonals] counts as perpendicular.
 constexpr double kPerpendicular = 1e-11;
-/// A distance may rise by this much [half diagonals] as rounding.
-constexpr double kDistanceRounding = 1e-13;
-/// Spans that pure Newton steps may lead through.
-constexpr int kMaxSpans = 8;
 
 struct Step {
   double du = 0, dv = 0;
@@ -172,85 +164,14 @@ class Descent {
   Projection result_;
 };
 
-SurfacePlace clamped_to(const ParameterLimits& limits, const SurfacePlace& p) {
-  return {p.span, std::clamp(p.u, limits.u_min, limits.u_max), std::clamp(p.v, limits.v_min, limits.v_max)};
-}
-
-/// Pure Newton steps from span to span, as long as no safeguard is needed.
-class NewtonWalk {
- public:
-  NewtonWalk(const Surface& surface, const Vec3& r, const ParameterLimits& limits)
-      : surface_(surface), limits_(limits) {
-    task_.r = r;
-    task_.last_step = kLastStep * surface.half_diagonal();
-    task_.slack = kDistanceRounding * surface.half_diagonal();
-  }
-
-  /// True where it ends at a local minimum inside the limits. False: `start` has become the best place so far.
-  bool run(SurfacePlace& start, Projection& result) {
-    SurfacePlace place = start;
-    SpanFoot foot;
-    foot.distance_squared = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < kMaxSpans; ++k) {
-      enter(place, foot);
-      const SpanEnd end = newton_in_span(task_, foot);
-      if (foot.moved) start = clamped_to(limits_, {place.span, u_of(foot.x), v_of(foot.y)});
-      if (end == SpanEnd::converged) {
-        result.place = start;
-        result.at = scaled(foot.at, per_u_, per_v_);
-        result.offset = task_.r - result.at.s;
-        result.converged = true;
-        return true;
-      }
-      const SurfacePlace next{place.span, u_of(foot.next_x), v_of(foot.next_y)};
-      if (end == SpanEnd::stuck || !within(next)) return false;
-      place = next;
-      surface_.settle(place);
-    }
-    return false;
-  }
-
- private:
-  void enter(const SurfacePlace& place, SpanFoot& foot) {
-    const ImagePatch& patch = surface_.patch_of(place.span);
-    domain_ = surface_.domain(place.span);
-    per_u_ = 1.0 / (domain_.u_max - domain_.u_min);
-    per_v_ = 1.0 / (domain_.v_max - domain_.v_min);
-    task_.taylor = surface_.taylor(place.span);
-    task_.degree_u = patch.degree_u;
-    task_.degree_v = patch.degree_v;
-    task_.x_min = limits_.u_min > domain_.u_min ? x_of(limits_.u_min) : -0.5;
-    task_.x_max = limits_.u_max < domain_.u_max ? x_of(limits_.u_max) : 0.5;
-    task_.y_min = limits_.v_min > domain_.v_min ? y_of(limits_.v_min) : -0.5;
-    task_.y_max = limits_.v_max < domain_.v_max ? y_of(limits_.v_max) : 0.5;
-    foot.x = x_of(place.u);
-    foot.y = y_of(place.v);
-    foot.moved = false;
-  }
-
-  [[nodiscard]] bool within(const SurfacePlace& p) const {
-    return p.u >= limits_.u_min && p.u <= limits_.u_max && p.v >= limits_.v_min && p.v <= limits_.v_max;
-  }
-  [[nodiscard]] double x_of(double u) const { return (u - domain_.u_min) * per_u_ - 0.5; }
-  [[nodiscard]] double y_of(double v) const { return (v - domain_.v_min) * per_v_ - 0.5; }
-  [[nodiscard]] double u_of(double x) const { return domain_.u_min + (x + 0.5) * (domain_.u_max - domain_.u_min); }
-  [[nodiscard]] double v_of(double y) const { return domain_.v_min + (y + 0.5) * (domain_.v_max - domain_.v_min); }
-
-  const Surface& surface_;
-  const ParameterLimits& limits_;
-  SpanTask task_;
-  SpanDomain domain_{};
-  double per_u_ = 1, per_v_ = 1;
-};
-
 }  // namespace
 
 Projection project_local(const Surface& surface, const Vec3& r, const SurfacePlace& start,
                          const ParameterLimits& limits) {
   Projection result;
-  SurfacePlace place = clamped_to(limits, start);
+  SurfacePlace place = clamped(start, limits);
   surface.settle(place);
-  if (NewtonWalk(surface, r, limits).run(place, result)) return result;
+  if (newton_walk(surface, r, limits, place, result)) return result;
   return Descent(surface, r, place, limits).run();
 }
 
