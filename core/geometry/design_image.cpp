@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/crc32.hpp"
 #include "core/geometry/bounding_tree.hpp"
 #include "core/geometry/taylor.hpp"
 
@@ -13,22 +14,6 @@ namespace {
 
 /// Coefficients of a Taylor form may differ from their own by this share of the largest control point.
 constexpr double kTaylorRounding = 1e-12;
-
-constexpr std::array<std::uint32_t, 256> make_crc_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t n = 0; n < 256; ++n) {
-    std::uint32_t c = n;
-    for (int k = 0; k < 8; ++k) c = (c & 1U) != 0 ? 0xEDB88320U ^ (c >> 1U) : c >> 1U;
-    table[n] = c;
-  }
-  return table;
-}
-constexpr std::array<std::uint32_t, 256> kCrcTable = make_crc_table();
-
-std::uint32_t crc_update(std::uint32_t crc, std::span<const std::byte> bytes) {
-  for (const std::byte b : bytes) crc = kCrcTable[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xFFU] ^ (crc >> 8U);
-  return crc;
-}
 
 /// True where `count` elements of T at `offset` lie inside the image, 8-byte aligned, behind the header.
 template <class T>
@@ -183,9 +168,8 @@ std::uint32_t image_crc(std::span<const std::byte> image) {
   constexpr std::size_t field = offsetof(ImageHeader, crc32);
   constexpr std::array<std::byte, sizeof(std::uint32_t)> zero{};
   if (image.size() < field + zero.size()) return 0;
-  std::uint32_t crc = crc_update(0xFFFFFFFFU, image.first(field));
-  crc = crc_update(crc, zero);
-  return ~crc_update(crc, image.subspan(field + zero.size()));
+  const std::uint32_t before = crc32(zero, crc32(image.first(field)));
+  return crc32(image.subspan(field + zero.size()), before);
 }
 
 Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {

@@ -1,6 +1,6 @@
 #include "firmware_bridge/host/journal_format.hpp"
 
-#include "firmware_bridge/host/crc32.hpp"
+#include "core/crc32.hpp"
 
 namespace bladefit {
 namespace {

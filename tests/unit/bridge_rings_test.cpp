@@ -4,7 +4,6 @@
 #include <array>
 #include <thread>
 
-#include "firmware_bridge/host/crc32.hpp"
 #include "firmware_bridge/host/latency_histogram.hpp"
 #include "firmware_bridge/host/latest_value.hpp"
 #include "firmware_bridge/host/ring.hpp"
@@ -95,13 +94,6 @@ TEST(BridgeLatencyHistogram, FindsTheQuantileWithinABin) {
   histogram.add(-5);
   histogram.add(INT64_MAX);
   EXPECT_GT(histogram.quantile_us(1.0), 1e6);
-}
-
-TEST(BridgeCrc32, IsThatOfIeee) {
-  const std::string text = "123456789";
-  EXPECT_EQ(crc32(std::as_bytes(std::span(text))), 0xCBF43926U);
-  const auto bytes = std::as_bytes(std::span(text));
-  EXPECT_EQ(crc32(bytes.subspan(4), crc32(bytes.first(4))), 0xCBF43926U);
 }
 
 }  // namespace

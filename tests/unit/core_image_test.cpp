@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/crc32.hpp"
 #include "core/geometry/global_projection.hpp"
 #include "tests/unit/core_fixtures.hpp"
 #include "tests/unit/design_fixtures.hpp"
@@ -97,6 +98,25 @@ TEST(DesignImage, EveryForgedByteIsRefusedOrHarmless) {
     }
   }
   EXPECT_GT(accepted, 0);
+}
+
+TEST(Crc32, IsThatOfIeee) {
+  const std::string text = "123456789";
+  EXPECT_EQ(crc32(std::as_bytes(std::span(text))), 0xCBF43926U);
+}
+
+/// Taken at once and byte by byte, from any place on.
+TEST(Crc32, GoesOnFromAnyPlace) {
+  std::mt19937 random(3);
+  std::vector<std::byte> bytes(100);
+  for (std::byte& b : bytes) b = static_cast<std::byte>(random() & 0xFFU);
+  for (std::size_t first = 0; first < 20; ++first) {
+    const std::span<const std::byte> part = std::span<const std::byte>(bytes).subspan(first, 70 - 2 * first);
+    std::uint32_t one_by_one = 0;
+    for (std::size_t k = 0; k < part.size(); ++k) one_by_one = crc32(part.subspan(k, 1), one_by_one);
+    EXPECT_EQ(crc32(part), one_by_one);
+    EXPECT_EQ(crc32(part.subspan(11), crc32(part.first(11))), one_by_one);
+  }
 }
 
 TEST(DesignImage, CutOffOrTooLongIsRefused) {

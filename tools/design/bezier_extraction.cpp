@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/geometry/taylor.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -111,6 +113,11 @@ BezierPatch extract_bezier(const NurbsSurface& surface) {
       for (std::size_t i = 0; i < points.size(); ++i) strip[i].push_back(points[i]);
     }
     append_strip(surface, spans_v, strip, patch);
+  }
+  patch.taylor.resize(patch.coefficients.size());
+  for (std::size_t k = 0; k < patch.coefficients.size(); k += patch.span_size()) {
+    taylor_form(&patch.coefficients[k], static_cast<std::uint32_t>(patch.degree_u),
+                static_cast<std::uint32_t>(patch.degree_v), &patch.taylor[k]);
   }
   return patch;
 }

@@ -14,6 +14,7 @@ struct BezierPatch {
   /// Homogeneous (w x, w y, w z, w) [mm]. Span (iu, iv) is the (iu * spans_v + iv)-th block of
   /// (degree_u + 1) * (degree_v + 1) control points; control point (i, j) of it is number i * (degree_v + 1) + j.
   std::vector<double> coefficients;
+  std::vector<double> taylor;  ///< the Taylor forms of the spans, in the same places
 
   [[nodiscard]] std::size_t spans_u() const { return breaks_u.size() - 1; }
   [[nodiscard]] std::size_t spans_v() const { return breaks_v.size() - 1; }

@@ -15,8 +15,9 @@ constexpr int kPlaces = 9;
 /// Su x Sv at a place of a span; zero where the parametrisation is degenerate.
 Vec3 direction(const BezierPatch& patch, std::size_t iu, std::size_t iv, double s, double t) {
   HomogeneousDerivatives h;
-  evaluate_net(&patch.coefficients[(iu * patch.spans_v() + iv) * patch.span_size()],
-               static_cast<std::uint32_t>(patch.degree_u), static_cast<std::uint32_t>(patch.degree_v), s, t, h);
+  evaluate_taylor(&patch.taylor[(iu * patch.spans_v() + iv) * patch.span_size()],
+                  static_cast<std::uint32_t>(patch.degree_u), static_cast<std::uint32_t>(patch.degree_v), s - 0.5,
+                  t - 0.5, h);
   const SurfacePoint point = projected(h);
   const Vec3 cross = point.s_u.cross(point.s_v);
   return cross.norm() > 1e-6 * point.s_u.norm() * point.s_v.norm() ? Vec3(cross.normalized()) : Vec3(Vec3::Zero());

@@ -7,7 +7,6 @@
 #include <limits>
 #include <span>
 
-#include "core/geometry/taylor.hpp"
 #include "tools/design/bezier_extraction.hpp"
 #include "tools/design/bounding_tree.hpp"
 #include "tools/design/creases.hpp"
@@ -95,9 +94,8 @@ void append_spans(const BezierPatch& bezier, int outward, double near, ImagePart
     append_leaves(net, bezier, near, parts);
     parts.spans.push_back(span);
     parts.coefficients.insert(parts.coefficients.end(), net.begin(), net.end());
-    parts.taylor.resize(parts.coefficients.size());
-    taylor_form(net.data(), static_cast<std::uint32_t>(bezier.degree_u), static_cast<std::uint32_t>(bezier.degree_v),
-                &parts.taylor[span.first_coefficient]);
+    const auto taylor = bezier.taylor.begin() + static_cast<std::ptrdiff_t>(k * bezier.span_size());
+    parts.taylor.insert(parts.taylor.end(), taylor, taylor + static_cast<std::ptrdiff_t>(bezier.span_size()));
   }
 }
 
