@@ -16,7 +16,7 @@ constexpr double kAngleMargin = 1e-8;
 constexpr double kCosineMargin = 1e-15;
 /// A control vector this small against the largest one has no reliable direction unless it is exactly zero.
 constexpr Extended kNoDirection = 1e-13L;
-constexpr int kAxisSteps = 200;
+constexpr int kAxisSteps = 40;
 
 /// A tensor-product polynomial in scaled Bernstein form: entry (i, j) is the control value times
 /// C(degree_u, i) C(degree_v, j), so that a product of polynomials is a plain convolution.
@@ -138,13 +138,19 @@ Eigen::Vector3d narrow_axis(const std::vector<Eigen::Vector3d>& directions) {
   Eigen::Vector3d best = axis;
   double best_cosine = -1;
   for (int step = 1; step <= kAxisSteps; ++step) {
-    const auto farthest = *std::min_element(directions.begin(), directions.end(),
-                                            [&](const auto& a, const auto& b) { return axis.dot(a) < axis.dot(b); });
-    if (const double cosine = axis.dot(farthest); cosine > best_cosine) {
+    const Eigen::Vector3d* farthest = &directions.front();
+    double cosine = axis.dot(*farthest);
+    for (const Eigen::Vector3d& direction : directions) {
+      const double other = axis.dot(direction);
+      if (other >= cosine) continue;
+      cosine = other;
+      farthest = &direction;
+    }
+    if (cosine > best_cosine) {
       best_cosine = cosine;
       best = axis;
     }
-    axis = (axis + (farthest - axis) / (step + 1)).normalized();
+    axis = (axis + (*farthest - axis) / (step + 1)).normalized();
   }
   return best;
 }
