@@ -97,7 +97,7 @@ TEST_P(EveryDegree, RestrictedNetIsTheSamePiece) {
       const double s = uniform(random, 0, 1), t = uniform(random, 0, 1);
       HomogeneousDerivatives whole, part;
       evaluate_net(net, p, q, rect.s_min + s * (rect.s_max - rect.s_min), rect.t_min + t * (rect.t_max - rect.t_min),
-                      whole);
+                   whole);
       evaluate_net(piece.points[0].data(), p, q, s, t, part);
       EXPECT_LT((whole.a - part.a).matrix().norm(), 1e-11 * design.size());
     }
