@@ -86,7 +86,7 @@ void append_wrapped(const std::string& note, std::string& text) {
       text += line + "\n";
       line = "   ";
     }
-    line += " " + note.substr(begin, end - begin);
+    line.append(" ").append(note, begin, end - begin);
     begin = end + 1;
   }
   text += line + "\n";
