@@ -69,18 +69,21 @@ SimulatorTransport transport_of(const std::string& name) {
   return SimulatorTransport::modbus_tcp;
 }
 
+/// The unit of a design. A CAD file is read for it, but not compiled.
+DesignUnit design_unit(const std::string& path) {
+  if (lower_extension(path) != ".bfd") return read_design(path).unit;
+  const LoadedDesign design = load_design(path, OutwardOption::automatic);
+  DesignImage image;
+  const Status status = DesignImage::open(design.image, image);
+  if (!succeeded(status)) throw DesignError(fmt::format("{}: {}; compile the design again", path, status_text(status)));
+  return static_cast<DesignUnit>(image.header().design_unit);
+}
+
 /// Millimetres in a unit of the points file. Throws DesignError for a design that cannot be read.
 double mm_per_unit_of(const SimulateFlags& flags) {
   if (flags.units == "in") return kMmPerInch;
   if (flags.units == "mm" || flags.design.empty()) return 1;
-  // The side of the material does not matter here, so that a design that does not tell it is good enough.
-  const LoadedDesign design = load_design(flags.design, OutwardOption::plus);
-  DesignImage image;
-  const Status status = DesignImage::open(design.image, image);
-  if (!succeeded(status)) {
-    throw DesignError(fmt::format("{}: {}; compile the design again", flags.design, status_text(status)));
-  }
-  return image.header().design_unit == static_cast<std::uint32_t>(DesignUnit::inch) ? kMmPerInch : 1;
+  return design_unit(flags.design) == DesignUnit::inch ? kMmPerInch : 1;
 }
 
 int serve_points(SimulateFlags& flags) {
