@@ -48,7 +48,7 @@ void finish(const HomogeneousDerivatives& h, double dx, double dy, SpanFoot& foo
   foot.at = {s.head<3>(), s_u.head<3>(), s_v.head<3>(), h.a_uu.head<3>(), h.a_uv.head<3>(), h.a_vv.head<3>()};
 }
 
-/// Cost: some 65 ns a step for a bicubic span; two steps from a neighbouring foot, at most kMaxSteps.
+/// Cost: some 80 ns a step for a bicubic span; two steps from a neighbouring foot, at most kMaxSteps.
 SpanEnd newton_in_span(const SpanTask& task, SpanFoot& foot) {
   const Homogeneous r(task.r[0], task.r[1], task.r[2], 1.0);
   double x = foot.x, y = foot.y;

@@ -79,7 +79,7 @@ void sum_any(const double* c, std::uint32_t degree_u, std::uint32_t degree_v, do
 }  // namespace taylor
 
 /// Evaluates a Taylor form at (x, y). In line, since it is most of the work of every fit.
-/// Cost: 38 four-vector multiplications and additions for a bicubic form, which is the fast path.
+/// Cost: 38 four-vector multiplications and as many additions for a bicubic form, which is the fast path.
 [[gnu::always_inline]] inline void evaluate_taylor(const double* form, std::uint32_t degree_u, std::uint32_t degree_v,
                                                    double x, double y, HomogeneousDerivatives& out) {
   if (degree_u == 3 && degree_v == 3) {
