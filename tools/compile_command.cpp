@@ -22,9 +22,9 @@ struct CompileOptions {
   std::string outward = "auto";
 };
 
-constexpr const char* kDescription = "Compile the B-spline surfaces of an IGES or STEP file into a design image";
+constexpr const char* kCompileDescription = "Compile the B-spline surfaces of an IGES or STEP file into a design image";
 
-constexpr const char* kHelp = R"(
+constexpr const char* kCompileHelp = R"(
 The image (.bfd) is what the localizer works on: Bezier spans, bounding tree, checksum. It is read
 without parsing, from a file or from flash, and takes the place of the IGES or STEP file everywhere.
 All its lengths are mm; the unit of the design file (mm or inch) is kept for display.
@@ -116,8 +116,8 @@ void compile(const CompileOptions& options) {
 
 void add_compile_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CompileOptions>();
-  CLI::App* command = app.add_subcommand("compile", kDescription);
-  command->footer(kHelp);
+  CLI::App* command = app.add_subcommand("compile", kCompileDescription);
+  command->footer(kCompileHelp);
   command->add_option("design", options->design, "IGES or STEP file (.igs .iges .stp .step), or an image (.bfd)")
       ->required()
       ->type_name("DESIGN");

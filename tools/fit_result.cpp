@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/cpu_clock.hpp"
+#include "tools/exit_codes.hpp"
 #include "tools/owned_localizer.hpp"
 
 namespace bladefit {
@@ -153,10 +154,10 @@ FitResult result_of(const DesignImage& design, const FitPlan& plan, const std::v
 }
 
 int exit_code_of(const FitResult& result) {
-  if (result.report.status == FitStatus::infeasible) return 1;
+  if (result.report.status == FitStatus::infeasible) return kOutOfTolerance;
   const bool out = std::any_of(result.verdicts.begin(), result.verdicts.end(),
                                [](const Verdict& v) { return v.state == PointState::out; });
-  return out ? 1 : 0;
+  return out ? kOutOfTolerance : 0;
 }
 
 }  // namespace bladefit

@@ -19,9 +19,10 @@ struct LoftFlags {
   LoftSettings settings;
 };
 
-constexpr const char* kDescription = "Loft a design surface from the measured or tabulated points of blade sections";
+constexpr const char* kLoftDescription =
+    "Loft a design surface from the measured or tabulated points of blade sections";
 
-constexpr const char* kHelp = R"(
+constexpr const char* kLoftHelp = R"(
 SECTIONS.csv names its columns in the first line: section,x,y,z and, if there, index and r_over_R. The rows of a section
 stand together, its points in their order along the section (trailing edge, one side, leading edge, other side, trailing
 edge); the sections go from root to tip. Sections may have different numbers of points.
@@ -69,8 +70,8 @@ void run_loft(const LoftFlags& flags) {
 void add_loft_command(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<LoftFlags>();
   LoftSettings& settings = flags->settings;
-  CLI::App* command = app.add_subcommand("loft", kDescription);
-  command->footer(kHelp);
+  CLI::App* command = app.add_subcommand("loft", kLoftDescription);
+  command->footer(kLoftHelp);
   command->add_option("sections", flags->sections, "CSV with the points of the sections")
       ->required()
       ->type_name("SECTIONS.csv");

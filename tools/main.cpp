@@ -5,6 +5,7 @@
 
 #include "tools/compile_command.hpp"
 #include "tools/design/design_error.hpp"
+#include "tools/exit_codes.hpp"
 #include "tools/localize_command.hpp"
 #include "tools/loft_command.hpp"
 #include "tools/panel_command.hpp"
@@ -16,8 +17,6 @@
 #include "tools/split_command.hpp"
 
 namespace {
-
-constexpr int kBadInput = 2;
 
 constexpr const char* kFooter =
     "A first try:\n"
@@ -48,7 +47,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n",
                  error.what());
-    return kBadInput;
+    return bladefit::kBadInput;
   }
   return exit_code;
 }
@@ -63,6 +62,6 @@ int main(int argc, char** argv) {
     return error.exit_code();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bladefit: %s\n", error.what());
-    return kBadInput;
+    return bladefit::kBadInput;
   }
 }

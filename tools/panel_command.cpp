@@ -8,13 +8,13 @@
 #include <thread>
 
 #include "firmware_bridge/host/panel_server.hpp"
+#include "tools/exit_codes.hpp"
 #include "tools/panel_display.hpp"
 #include "tools/run_stop_flag.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr int kBadInput = 2, kDeviceFailure = 3;
 constexpr std::chrono::milliseconds kPause{50};
 
 int show_panel(const std::string& address) {

@@ -19,7 +19,7 @@ struct ReportOptions {
   std::string session, format, output;
 };
 
-constexpr const char* kHelp = R"(
+constexpr const char* kReportHelp = R"(
 Formats:
   html  one page to look at, print and send: summary, regions, pose, points to cut or weld, map, histogram
   csv   one line a point, units in the names of the columns
@@ -65,7 +65,7 @@ void report(const ReportOptions& options) {
 void add_report_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand("report", "write what a session found as a page, a table or a data file");
-  command->footer(kHelp);
+  command->footer(kReportHelp);
   command->add_option("session", options->session, "folder that `bladefit run --session` wrote")
       ->required()
       ->type_name("SESSION_DIR");

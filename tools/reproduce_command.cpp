@@ -25,9 +25,10 @@ struct ReproduceFlags {
   std::vector<std::string> tables;
 };
 
-constexpr const char* kDescription = "Run the tables of the thesis on stand-in data and print both side by side";
+constexpr const char* kReproduceDescription =
+    "Run the tables of the thesis on stand-in data and print both side by side";
 
-constexpr const char* kHelp = R"(
+constexpr const char* kReproduceHelp = R"(
 R. A. Jinkerson, Constrained and Unconstrained Localization for Automated Inspection of Marine Propellers (MIT 1991),
 chapter 5, has sixteen tables. Each is run here by this solver, in the thesis' form, its figures above ours:
   I, II        ARL fan blade, unconstrained: RMS distances and times; motions
@@ -169,8 +170,8 @@ void run_reproduce(const ReproduceFlags& flags) {
 
 void add_reproduce_command(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<ReproduceFlags>();
-  CLI::App* command = app.add_subcommand("reproduce", kDescription);
-  command->footer(kHelp);
+  CLI::App* command = app.add_subcommand("reproduce", kReproduceDescription);
+  command->footer(kReproduceHelp);
   command->add_option("--data", flags->data, "Folder of the stand-in data (default: tests/data of the sources)")
       ->type_name("FOLDER");
   command

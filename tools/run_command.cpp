@@ -11,6 +11,7 @@
 #include "drivers/source_uri.hpp"
 #include "tools/design/output_file.hpp"
 #include "tools/design_notes.hpp"
+#include "tools/exit_codes.hpp"
 #include "tools/fit_result.hpp"
 #include "tools/panel_display.hpp"
 #include "tools/run_files.hpp"
@@ -20,7 +21,6 @@
 namespace bladefit {
 namespace {
 
-constexpr int kBadInput = 2, kDeviceFailure = 3;
 constexpr std::chrono::milliseconds kTurn{50};
 
 /// Lines that the host has for the user. They wait while a screen is shown.

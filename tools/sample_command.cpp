@@ -29,9 +29,9 @@ struct SampleFlags {
 constexpr std::uint64_t kMostPoints = 10'000'000;
 constexpr std::uint64_t kMostPaths = 65535;
 
-constexpr const char* kDescription = "Take points off a design surface, as a perfect or a noisy machine would";
+constexpr const char* kSampleDescription = "Take points off a design surface, as a perfect or a noisy machine would";
 
-constexpr const char* kHelp = R"(
+constexpr const char* kSampleHelp = R"(
 Writes x,y,z[,i,j,k],path for `localize`, `run` and `simulate`: a grid of NU x NV points in the parameters of each patch
 (or of --patch K), its first and last line at the limits of --window. A path is a line of constant v, or of constant u
 with --along v. Lengths are in the unit of the design unless --units is given, angles in radians.
@@ -175,8 +175,8 @@ void add_measuring_flags(CLI::App& command, SampleFlags& flags) {
 
 void add_sample_command(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<SampleFlags>();
-  CLI::App* command = app.add_subcommand("sample", kDescription);
-  command->footer(kHelp);
+  CLI::App* command = app.add_subcommand("sample", kSampleDescription);
+  command->footer(kSampleHelp);
   command->add_option("design", flags->design, "IGES or STEP file, or an image (.bfd)")
       ->required()
       ->type_name("DESIGN");

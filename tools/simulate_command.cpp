@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -87,12 +86,7 @@ double mm_per_unit_of(const SimulateFlags& flags) {
 }
 
 int serve_points(SimulateFlags& flags) {
-  try {
-    flags.settings.mm_per_unit = mm_per_unit_of(flags);
-  } catch (const DesignError& error) {
-    fmt::print(stderr, "simulate: {}\n", error.what());
-    return error.exit_code();
-  }
+  flags.settings.mm_per_unit = mm_per_unit_of(flags);
   flags.settings.transport = transport_of(flags.transport);
   return run_simulator(flags.settings);
 }

@@ -24,9 +24,9 @@ struct SplitFlags {
   double buffer = 0;
 };
 
-constexpr const char* kDescription = "Cut the patches of a design exactly, by knot insertion";
+constexpr const char* kSplitDescription = "Cut the patches of a design exactly, by knot insertion";
 
-constexpr const char* kHelp = R"(
+constexpr const char* kSplitHelp = R"(
 Each --at u:0.33 cuts a patch along the line u = 0.33 (parameters normalised to 0..1, as everywhere in bladefit); several
 lines in u and in v make a grid. In a design of several patches say which: --at 2:v:0.5, patches counted from 0. The new
 patches are the same surface, each with parameters 0..1; those of the first patch come first, rising in u, then in v.
@@ -192,8 +192,8 @@ void run_split(const SplitFlags& flags) {
 
 void add_split_command(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<SplitFlags>();
-  CLI::App* command = app.add_subcommand("split", kDescription);
-  command->footer(kHelp);
+  CLI::App* command = app.add_subcommand("split", kSplitDescription);
+  command->footer(kSplitHelp);
   command->add_option("design", flags->design, "IGES or STEP file (.igs .iges .stp .step)")
       ->required()
       ->type_name("DESIGN");

@@ -2,6 +2,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/exit_codes.hpp"
+
 namespace bladefit {
 
 /// Why a design could not be read, compiled or written. what() is one line that names the file, the entity, line or
@@ -19,7 +21,7 @@ class DesignError : public std::runtime_error {
   [[nodiscard]] Kind kind() const { return kind_; }
 
   /// Exit code of the command line: 2 bad input, 3 failed input or output.
-  [[nodiscard]] int exit_code() const { return kind_ == Kind::io_failure ? 3 : 2; }
+  [[nodiscard]] int exit_code() const { return kind_ == Kind::io_failure ? kDeviceFailure : kBadInput; }
 
  private:
   Kind kind_;

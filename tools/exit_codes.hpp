@@ -1,0 +1,8 @@
+#pragma once
+
+namespace bladefit {
+
+/// What the command returns beside 0.
+inline constexpr int kOutOfTolerance = 1, kBadInput = 2, kDeviceFailure = 3;
+
+}  // namespace bladefit
