@@ -76,7 +76,7 @@ std::size_t Localizer::memory_required(const LocalizerConfig& config) {
 }
 
 Localizer::Localizer(const DesignImage& design, const LocalizerConfig& config) : surface_(design), config_(config) {
-  frame_.pivot = middle_of(design.header());
+  frame_.pivot = surface_.middle();
   frame_.length = surface_.half_diagonal();
   if (config_.determined_mm == 0.0) config_.determined_mm = 1e-3 * frame_.length;
 }

@@ -105,11 +105,8 @@ class TreeCheck {
 
 }  // namespace
 
-BoxDistances::BoxDistances(const ImageHeader& header, const Vec3& point) {
-  const Vec3 arm = point - middle_of(header);
-  arm_ = arm.array().cast<float>();
-  rounding_ = kCoordinateRounding * arm.cwiseAbs().maxCoeff();
-}
+BoxDistances::BoxDistances(const Vec3& arm)
+    : arm_(arm.array().cast<float>()), rounding_(kCoordinateRounding * arm.cwiseAbs().maxCoeff()) {}
 
 float BoxDistances::threshold(double limit) const {
   const double least = limit + rounding_;

@@ -7,7 +7,8 @@ namespace bladefit {
 /// Lower bounds of the distances from a point to the boxes of the image's tree, four at a time in single precision.
 class BoxDistances {
  public:
-  BoxDistances(const ImageHeader& header, const Vec3& point);
+  /// `arm`: from the middle of the design to the point [mm].
+  explicit BoxDistances(const Vec3& arm);
 
   /// A square from here on means: not nearer than `limit` [mm].
   [[nodiscard]] float threshold(double limit) const;

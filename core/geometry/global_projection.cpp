@@ -38,7 +38,7 @@ class Pending {
 GlobalProjection search(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
   NearestSoFar nearest(surface, query);
   if (hint != nullptr) nearest.consider(*hint);
-  const BoxDistances boxes(surface.image().header(), query.point);
+  const BoxDistances boxes(query.point - surface.middle());
   const ImageNode* nodes = surface.image().nodes().data();
   float threshold = boxes.threshold(nearest.limit());
   Pending pending;

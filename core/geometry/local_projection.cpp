@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/distance_quadratic.hpp"
 #include "core/geometry/newton_walk.hpp"
 
 namespace bladefit {
@@ -18,21 +19,9 @@ struct Step {
   bool newton = false;  ///< a full second-order step: convergence is quadratic
 };
 
-/// Gradient and Hessian of half the squared distance.
-struct Quadratic {
-  double g_u, g_v, h_uu, h_uv, h_vv, m_uu, m_vv, m_uv;  ///< m: first fundamental form
-};
-
-Quadratic quadratic_at(const SurfacePoint& p, const Vec3& offset) {
-  const double m_uu = p.s_u.squaredNorm(), m_uv = p.s_u.dot(p.s_v), m_vv = p.s_v.squaredNorm();
-  return {-offset.dot(p.s_u),
-          -offset.dot(p.s_v),
-          m_uu - offset.dot(p.s_uu),
-          m_uv - offset.dot(p.s_uv),
-          m_vv - offset.dot(p.s_vv),
-          m_uu,
-          m_vv,
-          m_uv};
+DistanceQuadratic quadratic_of(const SurfacePoint& p, const Vec3& offset) {
+  return quadratic_at(p.s_u, p.s_v, p.s_uu, p.s_uv, p.s_vv, offset,
+                      [](const Vec3& a, const Vec3& b) { return a.dot(b); });
 }
 
 double step_1d(double g, double h, double m, bool& newton) {
@@ -42,7 +31,7 @@ double step_1d(double g, double h, double m, bool& newton) {
 }
 
 /// Newton where the Hessian is positive definite, Gauss-Newton elsewhere, one variable alone where the other is held.
-Step step_of(const Quadratic& q, bool hold_u, bool hold_v) {
+Step step_of(const DistanceQuadratic& q, bool hold_u, bool hold_v) {
   Step step;
   if (hold_u && hold_v) return {0, 0, true};
   if (hold_u) {
@@ -53,14 +42,9 @@ Step step_of(const Quadratic& q, bool hold_u, bool hold_v) {
     step.du = step_1d(q.g_u, q.h_uu, q.m_uu, step.newton);
     return step;
   }
-  double det = q.h_uu * q.h_vv - q.h_uv * q.h_uv;
-  if (q.h_uu > 0.0 && det > kConvexDeterminant * q.m_uu * q.m_vv) {
-    step.newton = true;
-    step.du = -(q.h_vv * q.g_u - q.h_uv * q.g_v) / det;
-    step.dv = -(q.h_uu * q.g_v - q.h_uv * q.g_u) / det;
-    return step;
-  }
-  det = q.m_uu * q.m_vv - q.m_uv * q.m_uv;
+  step.newton = q.newton_step(step.du, step.dv);
+  if (step.newton) return step;
+  const double det = q.m_uu * q.m_vv - q.m_uv * q.m_uv;
   if (det > 1e-12 * q.m_uu * q.m_vv) {
     step.du = -(q.m_vv * q.g_u - q.m_uv * q.g_v) / det;
     step.dv = -(q.m_uu * q.g_v - q.m_uv * q.g_u) / det;
@@ -82,7 +66,7 @@ class Descent {
 
   Projection run() {
     for (int evaluations = 1; evaluations < kMaxEvaluations;) {
-      const Quadratic q = quadratic_at(result_.at, result_.offset);
+      const DistanceQuadratic q = quadratic_of(result_.at, result_.offset);
       hold_at_limits(q);
       Step step = step_of(q, result_.fixed_u, result_.fixed_v);
       step = blocked(q, step);
@@ -103,7 +87,7 @@ class Descent {
     return std::abs(gradient) > kPerpendicular * scale_ * tangent.norm();
   }
 
-  void hold_at_limits(const Quadratic& q) {
+  void hold_at_limits(const DistanceQuadratic& q) {
     const SurfacePlace& p = result_.place;
     const bool out_u = (p.u <= limits_.u_min && q.g_u > 0.0) || (p.u >= limits_.u_max && q.g_u < 0.0);
     const bool out_v = (p.v <= limits_.v_min && q.g_v > 0.0) || (p.v >= limits_.v_max && q.g_v < 0.0);
@@ -112,7 +96,7 @@ class Descent {
   }
 
   /// A coupled step may lead out of the limits although the gradient does not: then that variable rests in this step.
-  [[nodiscard]] Step blocked(const Quadratic& q, const Step& step) const {
+  [[nodiscard]] Step blocked(const DistanceQuadratic& q, const Step& step) const {
     const SurfacePlace& p = result_.place;
     const bool u = (p.u <= limits_.u_min && step.du < 0.0) || (p.u >= limits_.u_max && step.du > 0.0);
     const bool v = (p.v <= limits_.v_min && step.dv < 0.0) || (p.v >= limits_.v_max && step.dv > 0.0);

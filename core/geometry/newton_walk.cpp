@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/distance_quadratic.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -18,7 +20,9 @@ struct SpanTask {
   Vec3 r = Vec3::Zero();
   double x_min = -0.5, x_max = 0.5, y_min = -0.5, y_max = 0.5;
   double last_step = 0;  ///< a step [mm] that is not longer is the last: Newton's error is then far under rounding
-  double slack = 0;      ///< a squared distance may rise by this share of itself and its square, as rounding [mm]
+  double slack = 0;      ///< a distance may rise by this much as rounding [mm]
+
+  [[nodiscard]] bool holds(double x, double y) const { return x >= x_min && x <= x_max && y >= y_min && y <= y_max; }
 };
 
 enum class SpanEnd : std::uint8_t {
@@ -48,6 +52,11 @@ void finish(const HomogeneousDerivatives& h, double dx, double dy, SpanFoot& foo
   foot.at = {s.head<3>(), s_u.head<3>(), s_v.head<3>(), h.a_uu.head<3>(), h.a_uv.head<3>(), h.a_vv.head<3>()};
 }
 
+/// Rounding may let a squared distance rise by a little.
+[[gnu::always_inline]] inline bool rises(double square, double before, double slack) {
+  return square > before && square > before + slack * (std::sqrt(before) + slack);
+}
+
 /// Cost: some 80 ns a step for a bicubic span; two steps from a neighbouring foot, at most kMaxSteps.
 SpanEnd newton_in_span(const SpanTask& task, SpanFoot& foot) {
   const Homogeneous r(task.r[0], task.r[1], task.r[2], 1.0);
@@ -58,25 +67,18 @@ SpanEnd newton_in_span(const SpanTask& task, SpanFoot& foot) {
     project(h);
     const Homogeneous offset = r - h.a;
     const double square = dot(offset, offset);
-    if (square > foot.distance_squared &&
-        square > foot.distance_squared + task.slack * (std::sqrt(foot.distance_squared) + task.slack))
-      return SpanEnd::stuck;
+    if (rises(square, foot.distance_squared, task.slack)) return SpanEnd::stuck;
     foot.x = x;
     foot.y = y;
     foot.distance_squared = square;
     foot.moved = true;
-    const double g_u = -dot(offset, h.a_u), g_v = -dot(offset, h.a_v);
-    const double m_uu = dot(h.a_u, h.a_u), m_uv = dot(h.a_u, h.a_v), m_vv = dot(h.a_v, h.a_v);
-    const double h_uu = m_uu - dot(offset, h.a_uu), h_uv = m_uv - dot(offset, h.a_uv);
-    const double h_vv = m_vv - dot(offset, h.a_vv);
-    const double det = h_uu * h_vv - h_uv * h_uv;
-    if (!(h_uu > 0.0 && det > kConvexDeterminant * m_uu * m_vv)) return SpanEnd::stuck;
-    const double inverse = 1.0 / det;
-    const double dx = -(h_vv * g_u - h_uv * g_v) * inverse, dy = -(h_uu * g_v - h_uv * g_u) * inverse;
+    const DistanceQuadratic q = quadratic_at(h.a_u, h.a_v, h.a_uu, h.a_uv, h.a_vv, offset, dot);
+    double dx = 0, dy = 0;
+    if (!q.newton_step(dx, dy)) return SpanEnd::stuck;
     x += dx;
     y += dy;
-    const bool inside = x >= task.x_min && x <= task.x_max && y >= task.y_min && y <= task.y_max;
-    if (dx * dx * m_uu + 2.0 * dx * dy * m_uv + dy * dy * m_vv <= task.last_step * task.last_step) {
+    const bool inside = task.holds(x, y);
+    if (dx * dx * q.m_uu + 2.0 * dx * dy * q.m_uv + dy * dy * q.m_vv <= task.last_step * task.last_step) {
       if (!inside) return SpanEnd::stuck;
       finish(h, dx, dy, foot);
       foot.x = x;

@@ -8,9 +8,6 @@ namespace bladefit {
 inline constexpr double kLastStep = 1e-9;
 /// A distance may rise by this much [half diagonals] as rounding.
 inline constexpr double kDistanceRounding = 1e-13;
-/// The Hessian counts as positive definite where its determinant is above this share of the product of the squared
-/// tangents.
-inline constexpr double kConvexDeterminant = 1e-9;
 
 /// Pure Newton steps for the foot of `r`, from span to span, in the parameters of each: the usual way, without the
 /// safeguards of project_local(), which takes over where they are needed.

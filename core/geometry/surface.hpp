@@ -7,7 +7,7 @@
 
 namespace bladefit {
 
-/// Of the box that the header names: what single-precision boxes are about, and the pivot of motions [mm].
+/// The middle of the box that the header names: what single-precision boxes are about, and the pivot of motions [mm].
 [[nodiscard]] Vec3 middle_of(const ImageHeader& header);
 
 /// A place on the design: a span and normalised patch parameters inside it.
@@ -70,10 +70,13 @@ class Surface {
 
   /// Half the diagonal of the box of the control points [mm]: the scale of all tolerances.
   [[nodiscard]] double half_diagonal() const { return half_diagonal_; }
+  /// The middle of that box [mm].
+  [[nodiscard]] const Vec3& middle() const { return middle_; }
 
  private:
   DesignImage image_;
   double half_diagonal_;
+  Vec3 middle_;
 };
 
 }  // namespace bladefit

@@ -36,11 +36,4 @@ void taylor::sum_any(const double* c, std::uint32_t degree_u, std::uint32_t degr
   sum<0, 0>(c, degree_u, degree_v, x, y, out);
 }
 
-void evaluate_net(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, double s, double t,
-                  HomogeneousDerivatives& out) {
-  std::array<double, 4 * kMaxOrder * kMaxOrder> taylor;
-  taylor_form(net, degree_u, degree_v, taylor.data());
-  evaluate_taylor(taylor.data(), degree_u, degree_v, s - 0.5, t - 0.5, out);
-}
-
 }  // namespace bladefit

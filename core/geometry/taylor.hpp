@@ -100,8 +100,4 @@ void sum_any(const double* c, std::uint32_t degree_u, std::uint32_t degree_v, do
   h.a_vv = (h.a_vv - (2.0 * w_v) * h.a_v - h.a_vv[3] * h.a) * inverse;
 }
 
-/// Evaluates a control net at local (s, t) in 0..1, by way of its Taylor form. Compile time work.
-void evaluate_net(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, double s, double t,
-                  HomogeneousDerivatives& out);
-
 }  // namespace bladefit

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/geometry/distance_certificate.hpp"
+#include "tests/unit/core_bernstein.hpp"
 #include "tests/unit/core_fixtures.hpp"
 #include "tests/unit/design_fixtures.hpp"
 
@@ -19,8 +20,7 @@ struct FormSample {
 };
 
 FormSample sample(const BezierNet& net, const Vec3& r, double bound, double s, double t) {
-  HomogeneousDerivatives h;
-  evaluate_net(net.points[0].data(), net.degree_u, net.degree_v, s, t, h);
+  const HomogeneousDerivatives h = bernstein_sum(net.points[0].data(), net.degree_u, net.degree_v, s, t);
   const auto form = [&](const Homogeneous& x) {
     Homogeneous out = x;
     out.head<3>() -= x[3] * r.array();

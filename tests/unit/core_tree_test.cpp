@@ -33,7 +33,7 @@ TEST_P(BoundingTree, NothingNearerThanTheLimitIsLeftOut) {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
     const double reach = size * std::pow(10.0, uniform(random, -3, 3));
     const Vec3 arm(uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -reach, reach));
-    const BoxDistances boxes(image.header(), middle_of(image.header()) + arm);
+    const BoxDistances boxes(arm);
     const ImageNode& node = image.nodes()[random() % image.nodes().size()];
     const BoxDistances::Four squares = boxes.squares(node);
     for (int place = 0; place < 4; ++place) {

@@ -1,10 +1,18 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "tools/design/nurbs_surface.hpp"
 
 namespace bladefit {
+
+/// One Bezier span: control net and Taylor form, as in the image. A view.
+struct BezierSpan {
+  const double* net;
+  const double* taylor;
+  std::uint32_t degree_u, degree_v;
+};
 
 /// A NURBS surface cut at its knots into spans_u x spans_v Bezier spans, parameters normalised to 0..1.
 struct BezierPatch {
@@ -21,6 +29,11 @@ struct BezierPatch {
   /// Doubles of one span.
   [[nodiscard]] std::size_t span_size() const {
     return 4 * static_cast<std::size_t>(degree_u + 1) * static_cast<std::size_t>(degree_v + 1);
+  }
+  [[nodiscard]] BezierSpan span(std::size_t index) const {
+    const std::size_t first = index * span_size();
+    return {&coefficients[first], &taylor[first], static_cast<std::uint32_t>(degree_u),
+            static_cast<std::uint32_t>(degree_v)};
   }
 };
 

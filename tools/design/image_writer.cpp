@@ -5,15 +5,13 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <span>
 
 #include "tools/design/bezier_extraction.hpp"
 #include "tools/design/bounding_tree.hpp"
 #include "tools/design/creases.hpp"
 #include "tools/design/design_error.hpp"
-#include "tools/design/leaf_subdivision.hpp"
-#include "tools/design/normal_cone.hpp"
 #include "tools/design/seams.hpp"
+#include "tools/design/span_bounding.hpp"
 
 namespace bladefit {
 namespace {
@@ -31,26 +29,6 @@ struct ImageParts {
 
 /// A leaf is to tell of points this near to the surface [half diagonals of the control points' box].
 constexpr double kNear = 5e-3;
-/// Boxes are wider than their control points by this share of their coordinates, so that whoever checks the image may
-/// round otherwise.
-constexpr double kBoxMargin = 1e-13;
-
-Box control_box(const BezierNet& net) {
-  Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::uint32_t k = 0; k < (net.degree_u + 1) * (net.degree_v + 1); ++k) {
-      const double coordinate = net.points[k][axis] / net.points[k][3];
-      low = std::min(low, coordinate);
-      high = std::max(high, coordinate);
-    }
-    const double margin = kBoxMargin * std::max(std::abs(low), std::abs(high));
-    box.min[axis] = low - margin;
-    box.max[axis] = high + margin;
-  }
-  return box;
-}
-
 /// Half the diagonal of the box of all control points [mm].
 double half_diagonal(const std::vector<NurbsSurface>& surfaces) {
   Eigen::AlignedBox3d box;
@@ -66,37 +44,33 @@ std::uint32_t append_breaks(const std::vector<double>& breaks, ImageParts& parts
   return first;
 }
 
-void append_leaves(std::span<const double> net, const BezierPatch& bezier, double near, ImageParts& parts) {
-  for (ImageLeaf& leaf : cut_into_leaves(net, bezier.degree_u, bezier.degree_v, near)) {
-    BezierNet restricted;
-    restrict_net(net.data(), static_cast<std::uint32_t>(bezier.degree_u), static_cast<std::uint32_t>(bezier.degree_v),
-                 {leaf.s_min, leaf.s_max, leaf.t_min, leaf.t_max}, restricted);
+void append_leaves(const SpanBounding& bounding, ImageParts& parts) {
+  for (ImageLeaf leaf : bounding.leaves) {
     leaf.span = static_cast<std::uint32_t>(parts.spans.size());
     parts.leaves.push_back(leaf);
-    parts.boxes.push_back(control_box(restricted));
   }
+  parts.boxes.insert(parts.boxes.end(), bounding.boxes.begin(), bounding.boxes.end());
 }
 
 void append_spans(const BezierPatch& bezier, int outward, double near, ImageParts& parts) {
   const auto patch = static_cast<std::uint32_t>(parts.patches.size());
-  const std::size_t count = bezier.spans_u() * bezier.spans_v();
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::span<const double> net{&bezier.coefficients[k * bezier.span_size()], bezier.span_size()};
-    const NormalCone cone = normal_cone(net, bezier.degree_u, bezier.degree_v, outward);
+  const std::size_t first = parts.coefficients.size();
+  std::size_t k = 0;
+  for (const SpanBounding& bounding : bound_spans(bezier, outward, near)) {
     ImageSpan span{};
     span.patch = patch;
     span.iu = static_cast<std::uint32_t>(k / bezier.spans_v());
     span.iv = static_cast<std::uint32_t>(k % bezier.spans_v());
-    span.first_coefficient = parts.coefficients.size();
-    std::copy(cone.axis.begin(), cone.axis.end(), span.cone_axis);
-    span.cone_cosine = cone.cosine;
+    span.first_coefficient = first + k * bezier.span_size();
+    std::copy(bounding.cone.axis.begin(), bounding.cone.axis.end(), span.cone_axis);
+    span.cone_cosine = bounding.cone.cosine;
     span.ends = span_ends(bezier, span.iu, span.iv);
-    append_leaves(net, bezier, near, parts);
+    append_leaves(bounding, parts);
     parts.spans.push_back(span);
-    parts.coefficients.insert(parts.coefficients.end(), net.begin(), net.end());
-    const auto taylor = bezier.taylor.begin() + static_cast<std::ptrdiff_t>(k * bezier.span_size());
-    parts.taylor.insert(parts.taylor.end(), taylor, taylor + static_cast<std::ptrdiff_t>(bezier.span_size()));
+    ++k;
   }
+  parts.coefficients.insert(parts.coefficients.end(), bezier.coefficients.begin(), bezier.coefficients.end());
+  parts.taylor.insert(parts.taylor.end(), bezier.taylor.begin(), bezier.taylor.end());
 }
 
 void append_patch(const BezierPatch& bezier, int outward, double near, ImageParts& parts) {

@@ -31,9 +31,8 @@ constexpr Interval kNothing{std::numeric_limits<double>::infinity(), -std::numer
 /// A piece of a span: its net, moved to an origin of its own, and its size in the span's parameters.
 class Piece {
  public:
-  Piece(std::span<const double> coefficients, int degree_u, int degree_v, const LocalRect& rect) {
-    restrict_net(coefficients.data(), static_cast<std::uint32_t>(degree_u), static_cast<std::uint32_t>(degree_v), rect,
-                 net_);
+  Piece(const BezierSpan& span, const LocalRect& rect) {
+    restrict_net(span.net, span.degree_u, span.degree_v, rect, net_);
     const Homogeneous& corner = net_.at(net_.degree_u / 2, net_.degree_v / 2);
     origin_ = corner.head<3>() / corner[3];
     for (std::uint32_t k = 0; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k)
@@ -45,22 +44,31 @@ class Piece {
 
   /// Control values of the derivative of order (along_u, along_v): differences, times the factor of the degrees.
   [[nodiscard]] HomogeneousRange derivative(std::uint32_t along_u, std::uint32_t along_v) const {
-    HomogeneousRange range{{kNothing, kNothing, kNothing}, kNothing};
     if (along_u > net_.degree_u || along_v > net_.degree_v) return HomogeneousRange{};
+    BezierNet d = net_;
     double factor = 1.0;
-    for (std::uint32_t k = 0; k < along_u; ++k) factor *= (net_.degree_u - k) * static_cast<double>(kPieces);
-    for (std::uint32_t k = 0; k < along_v; ++k) factor *= (net_.degree_v - k) * static_cast<double>(kPieces);
-    for (std::uint32_t i = 0; i + along_u <= net_.degree_u; ++i) {
-      for (std::uint32_t j = 0; j + along_v <= net_.degree_v; ++j) {
-        const Homogeneous value = factor * difference(i, j, along_u, along_v);
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double coordinate = value[static_cast<Eigen::Index>(k)];
-          range.place[k].include({coordinate, coordinate});
-        }
-        range.weight.include({value[3], value[3]});
+    for (std::uint32_t k = 0; k < along_u; ++k) {
+      factor *= (net_.degree_u - k) * static_cast<double>(kPieces);
+      for (std::uint32_t i = 0; i < net_.degree_u - k; ++i) {
+        for (std::uint32_t j = 0; j <= net_.degree_v; ++j) d.at(i, j) = d.at(i + 1, j) - Homogeneous(d.at(i, j));
       }
     }
-    return range;
+    for (std::uint32_t k = 0; k < along_v; ++k) {
+      factor *= (net_.degree_v - k) * static_cast<double>(kPieces);
+      for (std::uint32_t i = 0; i <= net_.degree_u - along_u; ++i) {
+        for (std::uint32_t j = 0; j < net_.degree_v - k; ++j) d.at(i, j) = d.at(i, j + 1) - Homogeneous(d.at(i, j));
+      }
+    }
+    Homogeneous low = Homogeneous::Constant(kNothing.low), high = Homogeneous::Constant(kNothing.high);
+    for (std::uint32_t i = 0; i <= net_.degree_u - along_u; ++i) {
+      for (std::uint32_t j = 0; j <= net_.degree_v - along_v; ++j) {
+        low = low.min(d.at(i, j));
+        high = high.max(d.at(i, j));
+      }
+    }
+    low *= factor;
+    high *= factor;
+    return {{Interval{low[0], high[0]}, {low[1], high[1]}, {low[2], high[2]}}, {low[3], high[3]}};
   }
 
   /// S - origin: inside the hull of the control points.
@@ -76,13 +84,6 @@ class Piece {
   }
 
  private:
-  [[nodiscard]] Homogeneous difference(std::uint32_t i, std::uint32_t j, std::uint32_t along_u,
-                                       std::uint32_t along_v) const {
-    if (along_u > 0) return difference(i + 1, j, along_u - 1, along_v) - difference(i, j, along_u - 1, along_v);
-    if (along_v > 0) return difference(i, j + 1, 0, along_v - 1) - difference(i, j, 0, along_v - 1);
-    return net_.at(i, j);
-  }
-
   BezierNet net_;
   Vec3 origin_;
 };
@@ -92,28 +93,24 @@ PieceRange range_of(const Piece& piece) {
   const HomogeneousRange value = piece.derivative(0, 0), s = piece.derivative(1, 0), t = piece.derivative(0, 1),
                          ss = piece.derivative(2, 0), st = piece.derivative(1, 1), tt = piece.derivative(0, 2);
   const Interval over = inverse(value.weight);
-  const Interval two{2.0, 2.0};
   PieceRange out;
   out.place = piece.place();
+  if (value.weight.low == value.weight.high) {
+    out.derivative = {over * s.place, over * t.place, over * ss.place, over * st.place, over * tt.place};
+    return out;
+  }
   out.derivative[0] = over * (s.place - s.weight * out.place);
   out.derivative[1] = over * (t.place - t.weight * out.place);
   const IntervalVector &d_s = out.derivative[0], &d_t = out.derivative[1];
-  out.derivative[2] = over * (ss.place - (two * s.weight) * d_s - ss.weight * out.place);
+  out.derivative[2] = over * (ss.place - (2.0 * s.weight) * d_s - ss.weight * out.place);
   out.derivative[3] = over * (st.place - s.weight * d_t - t.weight * d_s - st.weight * out.place);
-  out.derivative[4] = over * (tt.place - (two * t.weight) * d_t - tt.weight * out.place);
+  out.derivative[4] = over * (tt.place - (2.0 * t.weight) * d_t - tt.weight * out.place);
   return out;
-}
-
-Interval exactly(double x) { return {x, x}; }
-
-IntervalVector operator+(const IntervalVector& a, const IntervalVector& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
 IntervalVector in_frame(const double (&axis)[3][3], const IntervalVector& a) {
   IntervalVector out;
-  for (std::size_t k = 0; k < 3; ++k)
-    out[k] = exactly(axis[k][0]) * a[0] + exactly(axis[k][1]) * a[1] + exactly(axis[k][2]) * a[2];
+  for (std::size_t k = 0; k < 3; ++k) out[k] = axis[k][0] * a[0] + axis[k][1] * a[1] + axis[k][2] * a[2];
   return out;
 }
 
@@ -121,15 +118,15 @@ IntervalVector in_frame(const double (&axis)[3][3], const IntervalVector& a) {
 std::array<IntervalVector, 3> stretched(const double (&stretch)[3], const IntervalVector& ss, const IntervalVector& st,
                                         const IntervalVector& tt) {
   const double alpha = stretch[0], beta = stretch[1], gamma = stretch[2];
-  return {exactly(alpha * alpha) * ss, exactly(alpha * beta) * st + exactly(alpha * gamma) * ss,
-          exactly(beta * beta) * tt + exactly(2.0 * beta * gamma) * st + exactly(gamma * gamma) * ss};
+  return {(alpha * alpha) * ss, (alpha * beta) * st + (alpha * gamma) * ss,
+          (beta * beta) * tt + (2.0 * beta * gamma) * st + (gamma * gamma) * ss};
 }
 
 /// Derivatives s, t, aa, ab, bb of 1/2 |S - c|^2 from S - c and the derivatives of S.
 std::array<Interval, 5> self_range(const double (&stretch)[3], const IntervalVector& arm,
                                    const std::array<IntervalVector, 5>& d) {
-  const IntervalVector along_a = exactly(stretch[0]) * d[0];
-  const IntervalVector along_b = exactly(stretch[1]) * d[1] + exactly(stretch[2]) * d[0];
+  const IntervalVector along_a = stretch[0] * d[0];
+  const IntervalVector along_b = stretch[1] * d[1] + stretch[2] * d[0];
   return {dot(arm, d[0]), dot(arm, d[1]), square_sum(along_a) + dot(arm, d[2]), dot(along_a, along_b) + dot(arm, d[3]),
           square_sum(along_b) + dot(arm, d[4])};
 }
@@ -194,7 +191,7 @@ void include_piece(const Piece& piece, ImageBounds& bounds) {
   include_box(piece, middle, bounds);
   PieceRange range = range_of(piece);
   const Vec3 shift = piece.origin() - middle;
-  for (std::size_t k = 0; k < 3; ++k) range.place[k] = range.place[k] + exactly(shift[static_cast<Eigen::Index>(k)]);
+  for (std::size_t k = 0; k < 3; ++k) range.place[k] = range.place[k] + shift[static_cast<Eigen::Index>(k)];
   const IntervalVector arm = in_frame(bounds.axis, range.place);
   for (IntervalVector& derivative : range.derivative) derivative = in_frame(bounds.axis, derivative);
   const std::array<IntervalVector, 3> second =
@@ -203,7 +200,7 @@ void include_piece(const Piece& piece, ImageBounds& bounds) {
   const std::array<Interval, 5> self = self_range(bounds.stretch, arm, range.derivative);
   for (std::size_t d = 0; d < 5; ++d) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double farthest = (range.derivative[d][k] - exactly(bounds.derivative[d][k])).magnitude();
+      const double farthest = (range.derivative[d][k] + -bounds.derivative[d][k]).magnitude();
       bounds.spread[d][k] = std::max(bounds.spread[d][k], farthest);
     }
     bounds.self_low[d] = std::min(bounds.self_low[d], self[d].low);
@@ -220,17 +217,16 @@ void widen(double (&low)[3], double (&high)[3], double by) {
 
 }  // namespace
 
-ImageBounds leaf_bounds(std::span<const double> coefficients, int degree_u, int degree_v, const LocalRect& rect) {
+ImageBounds leaf_bounds(const BezierSpan& span, const LocalRect& rect) {
   const auto at_s = [&](double x) { return rect.s_min + x * (rect.s_max - rect.s_min); };
   const auto at_t = [&](double x) { return rect.t_min + x * (rect.t_max - rect.t_min); };
   HomogeneousDerivatives h;
-  evaluate_net(coefficients.data(), static_cast<std::uint32_t>(degree_u), static_cast<std::uint32_t>(degree_v),
-               at_s(0.5), at_t(0.5), h);
+  evaluate_taylor(span.taylor, span.degree_u, span.degree_v, at_s(0.5) - 0.5, at_t(0.5) - 0.5, h);
   ImageBounds bounds;
   set_middle(scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min), bounds);
   const auto piece = [&](int i, int j) {
     const double d = 1.0 / kPieces;
-    return Piece(coefficients, degree_u, degree_v, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)});
+    return Piece(span, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)});
   };
   for (int k = 0; k < kPieces * kPieces; ++k) include_piece(piece(k / kPieces, k % kPieces), bounds);
   double size = Vec3(bounds.middle).norm();

@@ -1,14 +1,13 @@
 #pragma once
-#include <span>
-
 #include "core/geometry/bezier.hpp"
 #include "core/geometry/design_image.hpp"
+#include "tools/design/bezier_extraction.hpp"
 
 namespace bladefit {
 
-/// Bounds of a rectangle of a Bezier span; `coefficients` are the span's, as in BezierPatch. Never too narrow: the
+/// Bounds of a rectangle of a Bezier span. Never too narrow: the
 /// rectangle is cut into pieces, on each of which the control points bound the homogeneous derivatives, and interval
 /// arithmetic carries them through the quotient rule. Cost: four restricted nets and their differences.
-ImageBounds leaf_bounds(std::span<const double> coefficients, int degree_u, int degree_v, const LocalRect& rect);
+ImageBounds leaf_bounds(const BezierSpan& span, const LocalRect& rect);
 
 }  // namespace bladefit

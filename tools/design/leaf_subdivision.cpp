@@ -40,11 +40,10 @@ struct Candidate {
 
 class Subdivision {
  public:
-  Subdivision(std::span<const double> coefficients, int degree_u, int degree_v, double near)
-      : coefficients_(coefficients), degree_u_(degree_u), degree_v_(degree_v), near_(near) {}
+  Subdivision(const BezierSpan& span, double near) : span_(span), near_(near) {}
 
   [[nodiscard]] Candidate candidate(const LocalRect& rect, int cuts) const {
-    Candidate c{rect, cuts, leaf_bounds(coefficients_, degree_u_, degree_v_, rect), 0};
+    Candidate c{rect, cuts, leaf_bounds(span_, rect), 0};
     c.convex = convexity(c.bounds, near_);
     return c;
   }
@@ -62,15 +61,14 @@ class Subdivision {
   }
 
  private:
-  std::span<const double> coefficients_;
-  int degree_u_, degree_v_;
+  BezierSpan span_;
   double near_;
 };
 
 }  // namespace
 
-std::vector<ImageLeaf> cut_into_leaves(std::span<const double> coefficients, int degree_u, int degree_v, double near) {
-  const Subdivision subdivision(coefficients, degree_u, degree_v, near);
+std::vector<ImageLeaf> cut_into_leaves(const BezierSpan& span, double near) {
+  const Subdivision subdivision(span, near);
   std::vector<ImageLeaf> leaves;
   std::vector<Candidate> pending{subdivision.candidate({}, 0)};
   while (!pending.empty()) {

@@ -1,5 +1,4 @@
 #pragma once
-#include <span>
 #include <vector>
 
 #include "tools/design/leaf_bounding.hpp"
@@ -9,7 +8,7 @@ namespace bladefit {
 /// Cuts a Bezier span into leaves, by halves, until the bounds of each tell that the distance from every point near to
 /// it is convex over it, at most 2^kLeafCuts of them. `near` [mm] is how far off the surface that is wanted.
 /// Of each leaf `span` and `node` are left open.
-inline constexpr int kLeafCuts = 5;
-std::vector<ImageLeaf> cut_into_leaves(std::span<const double> coefficients, int degree_u, int degree_v, double near);
+inline constexpr int kLeafCuts = 6;
+std::vector<ImageLeaf> cut_into_leaves(const BezierSpan& span, double near);
 
 }  // namespace bladefit
