@@ -29,6 +29,7 @@ struct ImageParts {
 
 /// A leaf is to tell of points this near to the surface [half diagonals of the control points' box].
 constexpr double kNear = 5e-3;
+
 /// Half the diagonal of the box of all control points [mm].
 double half_diagonal(const std::vector<NurbsSurface>& surfaces) {
   Eigen::AlignedBox3d box;
