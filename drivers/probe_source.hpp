@@ -13,6 +13,7 @@ enum class LinkState : std::uint8_t { connecting, up, lost };
 /// Why a source cannot start. `message` is one line that names the device and the mend; empty = no error.
 struct SourceError {
   std::string message;
+  bool bad_input = false;  ///< what was named is wrong, rather than the device or the line
   [[nodiscard]] explicit operator bool() const { return !message.empty(); }
 };
 
@@ -21,6 +22,7 @@ struct SourceStatus {
   LinkState link = LinkState::connecting;
   bool finished = false;      ///< the device said that the program is finished, and every record was delivered
   bool gap = false;           ///< records were lost in the device and cannot be had again
+  bool behind = false;        ///< records are known to be there that have not been delivered yet
   std::uint32_t run_id = 0;   ///< the device's run; another value means that numbering has restarted; 0 = unknown
   std::uint64_t records = 0;  ///< good records received, resent ones included
   std::uint64_t duplicates = 0;
@@ -29,6 +31,8 @@ struct SourceStatus {
   std::uint64_t reconnects = 0;
   std::uint32_t consecutive_faults = 0;  ///< 0 after any good exchange
   std::string last_fault;                ///< the newest fault in words; empty = none so far
+  std::uint64_t losses = 0;              ///< how often `gap` had a reason
+  std::string last_loss;                 ///< the newest of these in words: which records, why, and the mend
 };
 
 /// Where probe points come from: a machine or a recording. One thread owns it.
@@ -40,7 +44,9 @@ class ProbeSource {
 
   /// Connects and asks for the records after `after` (0 = from the first). A device that is missing, busy, of another
   /// map version or of a wrong word order is an error here; later losses of the link are mended by the source itself.
-  [[nodiscard]] virtual SourceError open(std::uint32_t after) = 0;
+  /// `run_id` is the run that the records up to `after` are of (0 = unknown): a device that is in another one is left
+  /// as it is, where the protocol tells the run before it asks for anything; status() says which run it is in.
+  [[nodiscard]] virtual SourceError open(std::uint32_t after, std::uint32_t run_id) = 0;
 
   /// Waits for at most `timeout` and writes the next records to `points`. Returns how many; 0 is no error.
   [[nodiscard]] virtual std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) = 0;

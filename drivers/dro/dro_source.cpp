@@ -30,7 +30,7 @@ DroSource::DroSource(const SourceSettings& settings)
       name_(source_name(settings)),
       port_(settings.line, settings.dro.reconnect_first, settings.dro.reconnect_longest) {}
 
-SourceError DroSource::open(std::uint32_t after) {
+SourceError DroSource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
   status_ = {};
   points_.clear();
   line_.clear();
@@ -83,12 +83,16 @@ void DroSource::take_line() {
     return;
   }
   ++status_.damaged;
-  status_.gap = status_.gap || !perhaps_cut;
-  note_fault(status_, fmt::format("{} in the line '{}'; probe the point again", fault, printable(line_)));
+  const std::string text = fmt::format("{} in the line '{}'; probe the point again", fault, printable(line_));
+  if (perhaps_cut) {
+    note_fault(status_, text);
+  } else {
+    note_loss(status_, text);
+  }
 }
 
 void DroSource::link_lost(const std::string& fault) {
-  status_.gap = true;
+  note_loss(status_, fault);
   port_.lost(fault, status_);
 }
 

@@ -13,7 +13,7 @@ class DroSource final : public ProbeSource {
  public:
   explicit DroSource(const SourceSettings& settings);
 
-  [[nodiscard]] SourceError open(std::uint32_t after) override;
+  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t) override {}
   void close() override { port_->close(); }

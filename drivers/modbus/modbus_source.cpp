@@ -14,10 +14,11 @@
 namespace bladefit {
 namespace {
 
-constexpr int kOpenTransactions = 10;  ///< that many reply timeouts are granted to open()
-constexpr int kHeadersToOpen = 3;      ///< one to know the device by, two to see the run that the start has begun
-constexpr int kHeaderTries = 3;        ///< a refused header may have been damaged on its way
-constexpr int kTimeoutsToLost = 3;     ///< missing replies in a row after which the link counts as lost
+constexpr int kOpenTransactions = 10;    ///< that many reply timeouts are granted to open()
+constexpr int kHeadersToOpen = 3;        ///< one to know the device by, two to see the run that the start has begun
+constexpr int kHeadersOfAnotherRun = 2;  ///< a header has no check sum
+constexpr int kHeaderTries = 3;          ///< a refused header may have been damaged on its way
+constexpr int kTimeoutsToLost = 3;       ///< missing replies in a row after which the link counts as lost
 constexpr std::chrono::milliseconds kCloseTime{700};
 
 }  // namespace
@@ -39,13 +40,14 @@ SourceError ModbusSource::open_error(const std::string& what) {
   return {fmt::format("{}: {}", name_, what)};
 }
 
-SourceError ModbusSource::open(std::uint32_t after) {
+SourceError ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
   status_ = {};
   ring_.restart(after);
   stored_ = after;
   sent_ = 0;
+  run_id_ = run_id;
   refusal_.clear();
-  header_refusals_ = timeouts_ = headers_ = 0;
+  header_refusals_ = foreign_headers_ = timeouts_ = headers_ = 0;
   if (const std::string fault = check_map(settings_.modbus.map); !fault.empty()) return open_error(fault);
   if (const std::string fault = link_->prepare(); !fault.empty()) return open_error(fault);
   opening_ = true;
@@ -57,6 +59,7 @@ SourceError ModbusSource::open(std::uint32_t after) {
       Clock::now() + settings_.modbus.connect_timeout + kOpenTransactions * settings_.modbus.reply_timeout;
   while (stage_ != Stage::running || headers_ < kHeadersToOpen) {
     step(Clock::now() + settings_.modbus.reply_timeout);
+    if (foreign_headers_ >= kHeadersOfAnotherRun) break;
     const bool never_connected = stage_ == Stage::down && !connected_;
     if (never_connected || Clock::now() > deadline) return open_error(status_.last_fault);
     if (!refusal_.empty()) return open_error(refusal_);
@@ -116,7 +119,7 @@ void ModbusSource::begin_transaction(Clock::time_point until) {
     return;
   }
   const CmmMap& map = settings_.modbus.map;
-  if (stage_ == Stage::announce || (stage_ == Stage::running && stored_ != sent_)) {
+  if (stage_ == Stage::announce || (stage_ == Stage::running && stored_ != sent_ && foreign_headers_ == 0)) {
     sending_ = stored_;
     if (map.acknowledge.present) return begin(Purpose::acknowledge, write_request(map.acknowledge, sending_));
     sent_ = sending_;
@@ -186,7 +189,8 @@ void ModbusSource::header_read() {
     header_refusals_ = 0;
     headers_ = std::min(headers_ + 1, kHeadersToOpen);
     note_good(status_);
-    if (stage_ == Stage::identify) identify(header);
+    foreign_headers_ = foreign(header) ? foreign_headers_ + 1 : 0;
+    if (stage_ == Stage::identify && foreign_headers_ == 0) identify(header);
     ring_.observe(header);
     return;
   }
@@ -195,8 +199,14 @@ void ModbusSource::header_read() {
   if (++header_refusals_ >= kHeaderTries && opening_) refusal_ = refusal;
 }
 
+/// Of another run than the records taken so far: it must not be told that any of its own are stored.
+bool ModbusSource::foreign(const CmmHeader& header) const {
+  return ring_.next() > 1 && run_id_ != 0 && header.run_id != 0 && header.run_id != run_id_;
+}
+
 /// The first good header after the link was made.
 void ModbusSource::identify(const CmmHeader& header) {
+  run_id_ = header.run_id;
   next_command_ = settings_.modbus.map.command.present ? command_for(header) : std::uint16_t{0};
   status_.link = LinkState::up;
   stage_ = Stage::announce;
@@ -279,7 +289,7 @@ void ModbusSource::close() {
   const Clock::time_point until = Clock::now() + kCloseTime;
   if (link_->is_open() && purpose_ != Purpose::none) finish_transaction(until);
   const CmmMap& map = settings_.modbus.map;
-  const bool talks = link_->is_open() && status_.link == LinkState::up;
+  const bool talks = link_->is_open() && status_.link == LinkState::up && foreign_headers_ == 0;
   if (talks && stored_ != sent_ && write_now(map.acknowledge, stored_, until)) sent_ = stored_;
   if (talks && !write_now(map.command, map.command_stop, until) && map.command.present) {
     note_fault(status_, "the device did not confirm the stop; stop it at its own screen");

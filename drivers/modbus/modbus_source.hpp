@@ -19,7 +19,7 @@ class ModbusSource final : public ProbeSource {
   ~ModbusSource() override;
 
   /// Takes at most about the connect timeout and ten reply timeouts. A link that breaks meanwhile is made again.
-  [[nodiscard]] SourceError open(std::uint32_t after) override;
+  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t sequence) override;
   void close() override;
@@ -41,6 +41,7 @@ class ModbusSource final : public ProbeSource {
   void begin(Purpose purpose, const ModbusRequest& request);
   void transaction_done();
   void header_read();
+  [[nodiscard]] bool foreign(const CmmHeader& header) const;
   void identify(const CmmHeader& header);
   void records_read();
   void transaction_failed(LinkEvent event);
@@ -66,11 +67,13 @@ class ModbusSource final : public ProbeSource {
   std::uint32_t sending_ = 0;       ///< of the acknowledge under way
   std::uint16_t next_command_ = 0;  ///< to be given when the acknowledge is through; 0 = none
   bool opening_ = false;
-  bool connected_ = false;   ///< a link was made since open()
-  int headers_ = 0;          ///< good ones since open(), as far as open() counts them
-  int header_refusals_ = 0;  ///< headers in a row that check_header() refused
-  int timeouts_ = 0;         ///< in a row
-  std::string refusal_;      ///< why the device cannot be read; empty = it can
+  bool connected_ = false;    ///< a link was made since open()
+  int headers_ = 0;           ///< good ones since open(), as far as open() counts them
+  std::uint32_t run_id_ = 0;  ///< of the records that were taken; 0 = unknown, or none were
+  int foreign_headers_ = 0;   ///< headers in a row of another run
+  int header_refusals_ = 0;   ///< headers in a row that check_header() refused
+  int timeouts_ = 0;          ///< in a row
+  std::string refusal_;       ///< why the device cannot be read; empty = it can
   Clock::time_point next_header_{};
 };
 

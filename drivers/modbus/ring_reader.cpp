@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kHeadersForLoss = 2;
 constexpr int kHeadersForFinish = 3;
+constexpr int kHeadersForOvershoot = 3;
 
 }  // namespace
 
@@ -23,7 +24,8 @@ void RingReader::restart(std::uint32_t after) {
   current_.reset();
   previous_.reset();
   next_ = after + 1;
-  tries_ = losses_seen_ = overflows_seen_ = finishes_seen_ = 0;
+  taken_ = after;
+  tries_ = losses_seen_ = overflows_seen_ = finishes_seen_ = overshoots_seen_ = 0;
   fault_told_ = stopped_ = false;
 }
 
@@ -36,7 +38,20 @@ void RingReader::observe(const CmmHeader& header) {
   if (fault && !fault_told_) note_fault(status_, "the device reports a fault; see its own screen");
   fault_told_ = fault;
   note_losses(header);
+  mend_overshoot(header);
   note_finish(header);
+}
+
+/// Records were given up because headers named newer ones, which later headers know nothing of: the former were wrong.
+void RingReader::mend_overshoot(const CmmHeader& header) {
+  const bool overshot = next_ > taken_ + 1 && header.newest + 1 < next_;
+  overshoots_seen_ = overshot ? overshoots_seen_ + 1 : 0;
+  if (overshoots_seen_ < kHeadersForOvershoot) return;
+  overshoots_seen_ = 0;
+  note_fault(status_, fmt::format("the device named records up to {} that it does not hold; reading goes on at {}",
+                                  next_ - 1, taken_ + 1));
+  next_ = taken_ + 1;
+  tries_ = 0;
 }
 
 bool RingReader::adopt_identity(const CmmHeader& header) {
@@ -58,8 +73,7 @@ bool RingReader::adopt_identity(const CmmHeader& header) {
 void RingReader::note_losses(const CmmHeader& header) {
   overflows_seen_ = (header.status & settings_.map.overflow_mask) != 0 ? overflows_seen_ + 1 : 0;
   if (overflows_seen_ == kHeadersForLoss && !status_.gap) {
-    status_.gap = true;
-    note_fault(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
+    note_loss(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
   }
   const bool lost = header.newest > header.capacity && header.newest - header.capacity + 1 > next_;
   losses_seen_ = lost ? losses_seen_ + 1 : 0;
@@ -96,7 +110,7 @@ bool RingReader::accept(const RecordBatch& batch, std::span<const std::uint16_t>
     point.time_us = time_us;
     points_.push(point);
     ++status_.records;
-    ++next_;
+    taken_ = next_++;
     tries_ = 0;
     status_.finished = false;
   }
@@ -116,8 +130,7 @@ void RingReader::damaged(const std::string& fault) {
 }
 
 void RingReader::skip_to(std::uint32_t sequence, const std::string& why) {
-  status_.gap = true;
-  note_fault(status_, fmt::format("records {}..{} are lost: {}; probe these points again", next_, sequence - 1, why));
+  note_loss(status_, lost_points(next_, sequence - 1, why));
   next_ = sequence;
   tries_ = 0;
 }

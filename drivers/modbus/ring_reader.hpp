@@ -50,6 +50,7 @@ class RingReader {
   [[nodiscard]] bool adopt_identity(const CmmHeader& header);
   void note_losses(const CmmHeader& header);
   void note_finish(const CmmHeader& header);
+  void mend_overshoot(const CmmHeader& header);
   void damaged(const std::string& fault);
   void skip_to(std::uint32_t sequence, const std::string& why);
 
@@ -59,8 +60,9 @@ class RingReader {
   std::optional<CmmHeader> current_;   ///< the header whose identity is believed, newest included
   std::optional<CmmHeader> previous_;  ///< the header before this one
   std::uint32_t next_ = 1;
-  int tries_ = 0;  ///< how often the record next_ was found damaged
-  int losses_seen_ = 0, overflows_seen_ = 0, finishes_seen_ = 0;
+  std::uint32_t taken_ = 0;  ///< last record that was good
+  int tries_ = 0;            ///< how often the record next_ was found damaged
+  int losses_seen_ = 0, overflows_seen_ = 0, finishes_seen_ = 0, overshoots_seen_ = 0;
   bool fault_told_ = false;
   bool stopped_ = false;
 };

@@ -14,7 +14,7 @@ class ReplaySource final : public ProbeSource {
   explicit ReplaySource(ReplaySettings settings) : settings_(std::move(settings)) {}
 
   /// Error: a file that read_points_csv() refuses, or one with fewer than `after` points.
-  [[nodiscard]] SourceError open(std::uint32_t after) override;
+  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t) override {}
   void close() override {}

@@ -128,11 +128,8 @@ bool SerialSession::asked_in_vain(Clock::time_point now) const {
 }
 
 void SerialSession::give_up_before(std::uint32_t sequence) {
-  status_.gap = true;
-  note_fault(status_,
-             fmt::format("records {}..{} are lost: the device did not send them in {} tries; probe these points "
-                         "again",
-                         next_, sequence - 1, asked_));
+  note_loss(status_,
+            lost_points(next_, sequence - 1, fmt::format("not sent by the device though asked for {} times", asked_)));
   next_ = sequence;
 }
 
@@ -144,8 +141,7 @@ SerialSession::Clock::time_point SerialSession::ask_at() const {
 /// Asks for the first missing record, unless it is too early, or gives it up.
 void SerialSession::ask_again(Clock::time_point now) {
   if (now < ask_at()) return;
-  const bool missing = !ahead_.empty() || end_ >= next_;
-  if (missing && asked_in_vain(now)) {
+  if (behind() && asked_in_vain(now)) {
     if (ahead_.empty()) return give_up_before(end_ + 1);
     give_up_before(ahead_.begin()->first);
     return deliver(ProbePoint(ahead_.begin()->second));
@@ -198,7 +194,7 @@ SerialSession::Clock::time_point SerialSession::next_tick() const {
   if (stage_ == Stage::starting) return started_at_ + settings_.start_interval;
   if (stage_ != Stage::running) return Clock::time_point::max();
   const Clock::time_point silent_at = heard_at_ + settings_.silence;
-  if (!ahead_.empty() || end_ >= next_) return std::min(silent_at, ask_at());
+  if (behind()) return std::min(silent_at, ask_at());
   if (doubtful_) return std::min(silent_at, std::max(ask_at(), doubted_at_ + settings_.resend_pause));
   return silent_at;
 }

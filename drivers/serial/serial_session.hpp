@@ -62,6 +62,9 @@ class SerialSession {
   /// The numbering has restarted: nothing more is delivered.
   [[nodiscard]] bool stopped() const { return stage_ == Stage::stopped; }
 
+  /// Records are missing ahead of others that came, or ahead of the end that the device told.
+  [[nodiscard]] bool behind() const { return !ahead_.empty() || end_ >= next_; }
+
   /// The device said that the program is finished, and every record was handed out.
   [[nodiscard]] bool finished() const { return complete() && points_.empty(); }
 

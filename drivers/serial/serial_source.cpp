@@ -26,7 +26,7 @@ SerialSource::SerialSource(const SourceSettings& settings)
       session_(settings_.serial, status_),
       port_(settings.line, settings.serial.reconnect_first, settings.serial.reconnect_longest) {}
 
-SourceError SerialSource::open(std::uint32_t after) {
+SourceError SerialSource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
   status_ = {};
   session_.restart(after);
   if (const std::string fault = port_.open(); !fault.empty()) return {fmt::format("{}: {}", name_, fault)};
@@ -45,6 +45,7 @@ std::size_t SerialSource::poll(std::span<ProbePoint> points, std::chrono::millis
   const std::size_t count =
       session_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
   status_.finished = session_.finished();
+  status_.behind = session_.behind();
   return count;
 }
 

@@ -15,7 +15,7 @@ class SerialSource final : public ProbeSource {
   explicit SerialSource(const SourceSettings& settings);
 
   /// Takes at most about settings.serial.open_timeout. A port that hangs up meanwhile is opened again.
-  [[nodiscard]] SourceError open(std::uint32_t after) override;
+  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t sequence) override { session_.acknowledge(sequence); }
   void close() override;

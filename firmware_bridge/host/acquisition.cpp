@@ -42,8 +42,8 @@ void Acquisition::replay_recorded() {
 }
 
 bool Acquisition::open_source() {
-  if (const SourceError error = source_.open(last_sequence_)) {
-    shared_.fail({Fault::device, error.message});
+  if (const SourceError error = source_.open(last_sequence_, recorded_.run_id)) {
+    shared_.fail({error.bad_input ? Fault::bad_input : Fault::device, error.message});
     return false;
   }
   opened_ = true;
@@ -119,12 +119,10 @@ void Acquisition::announce_changes(const SourceStatus& status) {
     shared_.notice(fmt::format("link lost: {}", status.last_fault));
   }
   if (status.link != announced_link_ && status.link == LinkState::up) shared_.notice("link is up again");
-  if (status.gap && !announced_gap_) {
-    shared_.notice(
-        fmt::format("points were lost in the device after number {}: probe that part again", last_sequence_));
-  }
+  if (status.losses != announced_losses_) shared_.notice(status.last_loss);
   announced_link_ = status.link;
   announced_gap_ = status.gap;
+  announced_losses_ = status.losses;
   if (announce) shared_.publication_wakeup.signal();
 }
 
@@ -150,8 +148,10 @@ SessionEnd Acquisition::end_reached() {
   if (run_id_has_changed() || shared_.failed.load()) return SessionEnd::failed;
   if (shared_.stop_requested.load()) return SessionEnd::stopped;
   if (settings_.end_when_finished && finish_taken_) return SessionEnd::finished;
+  // While records are behind the source asks for them, and in the end gives them up.
   const bool idle = settings_.idle.count() > 0 && Clock::now() - last_point_ > settings_.idle;
-  if (!idle || shared_.paused.load()) return SessionEnd::running;
+  if (!idle || shared_.paused.load() || (source_.status().behind && source_.status().link == LinkState::up))
+    return SessionEnd::running;
   return link_is_gone() ? SessionEnd::failed : SessionEnd::idle;
 }
 

@@ -56,6 +56,7 @@ class Acquisition {
   bool opened_ = false;
   LinkState announced_link_ = LinkState::up;
   bool announced_gap_ = false;
+  std::uint64_t announced_losses_ = 0;
   Clock::time_point last_point_ = Clock::now();
 };
 

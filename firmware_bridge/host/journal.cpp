@@ -81,7 +81,7 @@ HostError Journal::append(std::span<const StreamEvent> events) {
   std::array<JournalRecord, kJournalGroup> group;
   const std::size_t count = std::min(events.size(), kJournalGroup);
   for (std::size_t index = 0; index < count; ++index) {
-    group[index] = make_journal_record(events[index], records_ + static_cast<std::uint32_t>(index) + 1);
+    group[index] = make_journal_record(events[index], records_ + static_cast<std::uint32_t>(index) + 1, records_ + 1);
   }
   if (const HostError error = write_at_end(std::as_bytes(std::span(group).first(count)))) return error;
   records_ += static_cast<std::uint32_t>(count);

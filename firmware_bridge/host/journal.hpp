@@ -18,7 +18,8 @@ struct JournalContent {
   std::uint64_t torn_bytes = 0;     ///< bytes of a record or group of records at the end that was never completed
 };
 
-/// Records that one group commit writes at most. A crash can damage the last group only.
+/// Records that one group commit writes at most. A crash can damage the last group only: each record says to which
+/// group it belongs.
 inline constexpr std::size_t kJournalGroup = 256;
 
 /// Reads a journal. A torn tail is left out: what was not completed was never acknowledged. A file that is no journal,

@@ -26,10 +26,10 @@ bool header_is_whole(const JournalHeader& header) {
   return header.crc == crc_before(header, offsetof(JournalHeader, crc), 0);
 }
 
-JournalRecord make_journal_record(const StreamEvent& event, std::uint32_t place) {
+JournalRecord make_journal_record(const StreamEvent& event, std::uint32_t place, std::uint32_t group) {
   const ProbePoint& point = event.point;
-  JournalRecord record{point.sequence, point.path,   event.kind,    0, point.position,
-                       point.approach, point.weight, point.time_us, 0, 0};
+  JournalRecord record{point.sequence, point.path,   event.kind,    0,     point.position,
+                       point.approach, point.weight, point.time_us, group, 0};
   record.crc = crc_before(record, offsetof(JournalRecord, crc), place);
   return record;
 }

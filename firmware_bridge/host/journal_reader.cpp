@@ -67,10 +67,13 @@ HostError read_journal(const std::string& path, JournalContent& content) {
   const std::size_t count = records.size() / sizeof(JournalRecord);
   std::size_t whole = 0;
   while (whole < count && record_is_whole(record_at(records, whole), place_of(whole))) ++whole;
-  for (std::size_t later = whole + kJournalGroup; later < count; ++later) {
-    if (!record_is_whole(record_at(records, later), place_of(later))) continue;
-    return {Fault::bad_input, fmt::format("{}: record {} is damaged although records after it are whole, so this is "
-                                          "no torn end; copy the file from a backup, or name another session folder",
+  for (std::size_t later = whole + 1; later < count; ++later) {
+    const JournalRecord record = record_at(records, later);
+    // A group is begun when the one before it is on disk.
+    if (!record_is_whole(record, place_of(later)) || record.group <= place_of(whole)) continue;
+    return {Fault::bad_input, fmt::format("{}: record {} is damaged although records that were stored after it are "
+                                          "whole, so this is no torn end; nothing was changed: copy the file from a "
+                                          "backup, or name another session folder",
                                           path, place_of(whole))};
   }
   content.events.reserve(whole);

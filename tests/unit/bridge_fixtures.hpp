@@ -87,7 +87,7 @@ class ScriptedSource : public ProbeSource {
   explicit ScriptedSource(std::vector<ProbePoint> points, unsigned seed = 1)
       : points_(std::move(points)), seed_(seed) {}
 
-  [[nodiscard]] SourceError open(std::uint32_t after) override {
+  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t /*run_id*/) override {
     if (!refusal.empty()) return {refusal};
     while (next_ < points_.size() && points_[next_].sequence <= after) ++next_;
     opened_after = after;

@@ -100,7 +100,7 @@ class RtuMachine {
 TEST(ModbusRtu, DeliversAndSurvivesEveryMischief) {
   RtuMachine machine;
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   std::uint32_t newest = 0;
   for (const Mischief mischief :
        {Mischief::none, Mischief::silent, Mischief::late, Mischief::foreign_first, Mischief::noise_first}) {
@@ -122,7 +122,7 @@ TEST(ModbusRtu, TakesItsEchoOut) {
   SourceSettings settings = machine.settings();
   settings.modbus.echo = true;
   const auto source = make_source(settings);
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   EXPECT_EQ(collect_checked(*source, 2), counted(1, 2));
 }
 
@@ -132,7 +132,7 @@ TEST(ModbusRtu, ToleratesASilenceWithoutReopening) {
   settings.modbus.reply_timeout = milliseconds(30);
   settings.modbus.quiet = milliseconds(10);
   const auto source = make_source(settings);
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   machine.dumb = true;
   std::array<ProbePoint, 4> points;
   static_cast<void>(source->poll(points, milliseconds(300)));
@@ -143,7 +143,7 @@ TEST(ModbusRtu, ToleratesASilenceWithoutReopening) {
 
 TEST(ModbusRtuErrors, NameTheDeviceAndTheMend) {
   RtuMachine machine;
-  const auto opened = [](const SourceSettings& settings) { return make_source(settings)->open(0).message; };
+  const auto opened = [](const SourceSettings& settings) { return make_source(settings)->open(0, 0).message; };
   SourceSettings slow = machine.settings();
   slow.line.baud = 9600;
   EXPECT_NE(opened(slow).find("a reply timeout of 100 ms is too short: request and reply take 264 ms at 9600 baud"),
@@ -157,7 +157,7 @@ TEST(ModbusRtuErrors, NameTheDeviceAndTheMend) {
   missing.line.device = "/dev/null";
   EXPECT_NE(opened(missing).find("this is no serial port"), std::string::npos);
   const auto first = make_source(machine.settings());
-  ASSERT_EQ(first->open(0).message, "");
+  ASSERT_EQ(first->open(0, 0).message, "");
   EXPECT_NE(opened(machine.settings()).find("the port is busy"), std::string::npos);
   first->close();
   EXPECT_EQ(opened(machine.settings()), "");

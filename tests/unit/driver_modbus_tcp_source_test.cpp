@@ -110,7 +110,7 @@ TEST(ModbusTcp, StartsDeliversAcknowledgesAndStops) {
   TcpMachine machine;
   machine.registers.probe(3);
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   EXPECT_EQ(machine.registers.holding(2), 1);
   EXPECT_EQ(source->status().run_id, 5U);
   EXPECT_EQ(collect_checked(*source, 3), counted(1, 3));
@@ -131,7 +131,7 @@ TEST(ModbusTcp, GoesOnBehindWhatIsStored) {
   TcpMachine machine;
   machine.registers.probe(9);
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(7).message, "");
+  ASSERT_EQ(source->open(7, 0).message, "");
   EXPECT_EQ(machine.registers.holding(1), 7);
   EXPECT_EQ(machine.registers.holding(2), 0) << "a device that is probing is left alone";
   EXPECT_EQ(collect_checked(*source, 2), counted(8, 9));
@@ -140,7 +140,7 @@ TEST(ModbusTcp, GoesOnBehindWhatIsStored) {
 TEST(ModbusTcp, SurvivesEveryMischief) {
   TcpMachine machine;
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   std::uint32_t newest = 0;
   for (const Mischief mischief :
        {Mischief::silent, Mischief::late, Mischief::foreign_first, Mischief::hang_up, Mischief::wrong_length}) {
@@ -161,7 +161,7 @@ TEST(ModbusTcp, GivesUpADeadConnectionAndTellsSo) {
   SourceSettings settings = machine.settings();
   settings.modbus.reply_timeout = milliseconds(20);
   const auto source = make_source(settings);
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   machine.dumb = true;
   EXPECT_EQ(collect_checked(*source, 1).size(), 0U);
   EXPECT_EQ(source->status().link, LinkState::lost);
@@ -172,7 +172,7 @@ TEST(ModbusTcp, GivesUpADeadConnectionAndTellsSo) {
 TEST(ModbusTcp, PollReturnsInTimeWhateverTheDeviceDoes) {
   TcpMachine machine;
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   machine.dumb = true;
   std::array<ProbePoint, 4> points;
   for (int call = 0; call < 20; ++call) {
@@ -186,27 +186,44 @@ TEST(ModbusTcp, ReportsLostRecords) {
   TcpMachine machine;
   machine.registers.probe(20);
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   EXPECT_EQ(collect_checked(*source, 16), counted(5, 20));
   EXPECT_TRUE(source->status().gap);
+}
+
+/// Nothing of the run that the device is in is stored: it is not told so, and its program is not stopped.
+TEST(ModbusTcp, LeavesADeviceInAnotherRunAlone) {
+  TcpMachine machine;
+  machine.registers.probe(9);
+  const auto source = make_source(machine.settings());
+  ASSERT_EQ(source->open(7, 4).message, "");
+  EXPECT_EQ(source->status().run_id, 5U);
+  source->acknowledge(7);
+  source->close();
+  EXPECT_EQ(machine.registers.holding(1), 0);
+  EXPECT_EQ(machine.registers.holding(2), 0);
 }
 
 TEST(ModbusTcp, StopsAtAnotherRun) {
   TcpMachine machine;
   machine.registers.probe(2);
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   EXPECT_EQ(collect_checked(*source, 2), counted(1, 2));
   machine.registers.set(7, 6);
   std::array<ProbePoint, 4> points;
   EXPECT_EQ(source->poll(points, milliseconds(50)), 0U);
   EXPECT_EQ(source->status().run_id, 6U);
   EXPECT_NE(source->status().last_fault.find("another run"), std::string::npos);
+  source->acknowledge(2);
+  source->close();
+  EXPECT_EQ(machine.registers.holding(1), 0) << "none of the other run's records is stored";
+  EXPECT_EQ(machine.registers.holding(2), 1);
 }
 
 TEST(ModbusTcpErrors, NameTheDeviceAndTheMend) {
   TcpMachine machine;
-  const auto opened = [&machine](const SourceSettings& settings) { return make_source(settings)->open(0).message; };
+  const auto opened = [&machine](const SourceSettings& settings) { return make_source(settings)->open(0, 0).message; };
   const std::string name = "modbus-tcp://127.0.0.1:" + std::to_string(machine.port) + ": ";
   machine.registers.set(0, 2);
   EXPECT_EQ(opened(machine.settings()),
@@ -242,7 +259,7 @@ TEST(ModbusTcpErrors, NameARefusedConnection) {
     const TcpMachine machine;
     settings = machine.settings();
   }
-  EXPECT_NE(make_source(settings)->open(0).message.find("connection refused; switch on"), std::string::npos);
+  EXPECT_NE(make_source(settings)->open(0, 0).message.find("connection refused; switch on"), std::string::npos);
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(RingReader, GivesUpARecordThatStaysDamaged) {
   bench.show(2);
   for (int look = 0; look < 3; ++look) EXPECT_FALSE(bench.read(1));
   EXPECT_TRUE(bench.status.gap);
-  EXPECT_NE(bench.status.last_fault.find("records 1..1 are lost: damaged in 3 looks"), std::string::npos);
+  EXPECT_NE(bench.status.last_fault.find("point 1 is lost: damaged in 3 looks"), std::string::npos);
   EXPECT_TRUE(bench.read());
   EXPECT_EQ(bench.take(), (Sequences{2}));
 }
@@ -111,8 +111,22 @@ TEST(RingReader, BelievesInLossOnlyWhenTwoHeadersSaySo) {
   bench.show(20);
   bench.show(21);
   EXPECT_TRUE(bench.status.gap);
-  EXPECT_NE(bench.status.last_fault.find("records 4..13 are lost"), std::string::npos) << bench.status.last_fault;
+  EXPECT_NE(bench.status.last_fault.find("points 4..13 are lost"), std::string::npos) << bench.status.last_fault;
   EXPECT_EQ(bench.ring.next_batch().sequence, 14U);
+}
+
+/// Two headers that named too new a record are not the end: the device still holds what was given up.
+TEST(RingReader, GoesBackWhenTheDeviceHasOverstated) {
+  Bench bench;
+  bench.show(3);
+  EXPECT_TRUE(bench.read());
+  EXPECT_EQ(bench.take(), (Sequences{1, 2, 3}));
+  bench.show(1000);
+  bench.show(1000);
+  EXPECT_EQ(bench.status.losses, 1U);
+  for (int look = 0; look < 3; ++look) bench.show(5);
+  EXPECT_TRUE(bench.read());
+  EXPECT_EQ(bench.take(), (Sequences{4, 5}));
 }
 
 TEST(RingReader, TakesTheOverflowBitForAGap) {

@@ -88,7 +88,7 @@ std::string open_answered(ProbeSource& source, const Cable& cable) {
     std::this_thread::sleep_for(milliseconds(20));
     cable.write(encode_line("RUN,3"));
   });
-  std::string message = source.open(0).message;
+  std::string message = source.open(0, 0).message;
   machine.join();
   return message;
 }
@@ -149,7 +149,7 @@ TEST(SerialSource, TakesItsEchoOut) {
     std::this_thread::sleep_for(milliseconds(20));
     cable.write(encode_line("START,1") + encode_line("RUN,3") + point_line(1));
   });
-  EXPECT_EQ(source->open(0).message, "");
+  EXPECT_EQ(source->open(0, 0).message, "");
   machine.join();
   EXPECT_EQ(collect(*source, 1), (Sequences{1}));
   EXPECT_EQ(source->status().damaged, 0U) << source->status().last_fault;
@@ -158,7 +158,7 @@ TEST(SerialSource, TakesItsEchoOut) {
 TEST(SerialSourceErrors, NameTheDeviceAndTheMend) {
   const Cable cable;
   const SourceSettings settings = serial_settings(cable);
-  const auto opened = [](const SourceSettings& wanted) { return make_source(wanted)->open(0).message; };
+  const auto opened = [](const SourceSettings& wanted) { return make_source(wanted)->open(0, 0).message; };
   const std::string mute = opened(settings);
   EXPECT_EQ(mute,
             "serial:" + cable.device + ": the device does not answer $START; switch it on, or correct baud and parity");
@@ -182,7 +182,7 @@ TEST(DroSource, NumbersItsPoints) {
   settings.line.device = cable.device;
   settings.dro.reconnect_first = milliseconds(10);
   const auto source = make_source(settings);
-  ASSERT_EQ(source->open(5).message, "");
+  ASSERT_EQ(source->open(5, 0).message, "");
   cable.write("0.5 Z 1\r\nX 1 Y 2 Z 3\r\n# note\r\nX 1 Y 2 Z 4\n\r");
   EXPECT_EQ(collect(*source, 2), (Sequences{6, 7}));
   EXPECT_EQ(source->status().damaged, 1U);
@@ -206,17 +206,17 @@ TEST(ReplaySource, DeliversTheFileAndFinishes) {
   settings.kind = SourceKind::replay;
   settings.replay.file = BLADEFIT_TEST_DATA "/dtmb4119/subsets/050.csv";
   const auto source = make_source(settings);
-  ASSERT_EQ(source->open(0).message, "");
+  ASSERT_EQ(source->open(0, 0).message, "");
   const std::uint32_t run = source->status().run_id;
   EXPECT_NE(run, 0U);
   EXPECT_EQ(collect(*source, 50).back(), 50U);
   EXPECT_TRUE(source->status().finished);
-  ASSERT_EQ(source->open(48).message, "");
+  ASSERT_EQ(source->open(48, 0).message, "");
   EXPECT_EQ(collect(*source, 2), (Sequences{49, 50}));
   EXPECT_EQ(source->status().run_id, run);
-  EXPECT_NE(source->open(51).message.find("has 50 points, but the session already holds 51"), std::string::npos);
+  EXPECT_NE(source->open(51, 0).message.find("has 50 points, but the session already holds 51"), std::string::npos);
   settings.replay.file = "/nonexistent.csv";
-  EXPECT_NE(make_source(settings)->open(0).message.find("/nonexistent.csv: No such file"), std::string::npos);
+  EXPECT_NE(make_source(settings)->open(0, 0).message.find("/nonexistent.csv: No such file"), std::string::npos);
 }
 
 }  // namespace
