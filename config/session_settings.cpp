@@ -1,7 +1,11 @@
 #include "config/session_settings.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "config/fit_table.hpp"
@@ -37,6 +41,12 @@ void read_source(TableReader& table, const std::string& file, std::optional<std:
   if (scratch.kind == SourceKind::replay) source = std::string(kReplay) + resolved(scratch.replay.file, file);
 }
 
+/// Of IPv4 or IPv6.
+bool is_numeric_address(const std::string& text) {
+  std::array<unsigned char, sizeof(in6_addr)> bytes{};
+  return inet_pton(AF_INET, text.c_str(), bytes.data()) == 1 || inet_pton(AF_INET6, text.c_str(), bytes.data()) == 1;
+}
+
 void read_panel(TableReader& table, PanelSettings& panel) {
   table.read("address", panel.address);
   double port = 0;
@@ -46,6 +56,10 @@ void read_panel(TableReader& table, PanelSettings& panel) {
   }
   table.read("commands", panel.commands);
   table.read("allow", panel.allow);
+  const std::vector<std::string> allowed = panel.allow.value_or(std::vector<std::string>());
+  const auto wrong = std::find_if_not(allowed.begin(), allowed.end(), is_numeric_address);
+  if (wrong != allowed.end())
+    return table.fail("allow", "'" + *wrong + "' is no numeric address; write for example \"192.168.0.7\"");
   table.finish();
 }
 

@@ -37,7 +37,7 @@ const char* status_text(Status status) {
     case Status::not_convex:
       return "the Hessian is not positive definite";
     case Status::bad_magic:
-      return "not a bladefit design image";
+      return "not a bladefit design image: compile the design again";
     case Status::bad_version:
       return "a design image of another format version: compile the design again";
     case Status::bad_length:

@@ -45,6 +45,12 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
+    const std::string first = argc > 1 ? argv[1] : "";
+    const auto named = [&first](const CLI::App* command) { return command->get_name() == first; };
+    if (!first.empty() && first.front() != '-' && app.get_subcommands(named).empty()) {
+      std::fprintf(stderr, "bladefit: '%s' is no command; `bladefit --help` lists them\n", first.c_str());
+      return bladefit::kBadInput;
+    }
     std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n",
                  error.what());
     return bladefit::kBadInput;

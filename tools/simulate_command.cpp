@@ -74,7 +74,7 @@ DesignUnit design_unit(const std::string& path) {
   const LoadedDesign design = load_design(path, OutwardOption::automatic);
   DesignImage image;
   const Status status = DesignImage::open(design.image, image);
-  if (!succeeded(status)) throw DesignError(fmt::format("{}: {}; compile the design again", path, status_text(status)));
+  if (!succeeded(status)) throw DesignError(fmt::format("{}: {}", path, status_text(status)));
   return static_cast<DesignUnit>(image.header().design_unit);
 }
 

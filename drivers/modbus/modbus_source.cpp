@@ -238,7 +238,7 @@ void ModbusSource::transaction_failed(LinkEvent event) {
   if (event == LinkEvent::damaged) ++status_.damaged;
   if (event == LinkEvent::refused) {
     next_header_ = Clock::now() + settings_.modbus.poll_period;
-    if (opening_) refusal_ = link_->fault() + "; correct the addresses in the device file";
+    if (opening_) refusal_ = link_->fault() + "; correct the addresses, or lower batch, in the device file";
   }
   if (event != LinkEvent::timeout) return;
   ++timeouts_;

@@ -39,6 +39,9 @@ TEST_P(WorkflowRefusals, InOneLine) {
   EXPECT_TRUE(std::filesystem::is_empty(scratch("")));
 }
 
+INSTANTIATE_TEST_SUITE_P(Command, WorkflowRefusals,
+                         ::testing::Values(Refusal{{"lofty"}, "'lofty' is no command; `bladefit --help` lists them"}));
+
 INSTANTIATE_TEST_SUITE_P(
     Loft, WorkflowRefusals,
     ::testing::Values(

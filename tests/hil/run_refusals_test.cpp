@@ -1,4 +1,5 @@
-// Missing, busy and foreign devices: one line that names the device and the mend, exit code 3, no result left behind.
+// Missing, busy and foreign devices: one line that names the device and the mend, exit code 3 (2 for a recording that
+// cannot be used), no result left behind.
 #include <gtest/gtest.h>
 
 #include "tests/hil/session.hpp"
@@ -6,19 +7,24 @@
 namespace bladefit::hil {
 namespace {
 
-/// Runs a session to its end and expects a device failure told in one line with these words.
-void expect_device_failure(const std::string& source, const std::vector<std::string>& words,
-                           const std::vector<std::string>& more = kUntilIdle) {
+/// Runs a session to its end and expects a failure told in one line with these words.
+void expect_failure(int exit_code, const std::string& source, const std::vector<std::string>& words) {
   SCOPED_TRACE(source);
   const Scratch scratch;
-  Process run(run_options(source, scratch / "session", scratch / "result.json", more));
-  EXPECT_EQ(run.exit_code(30s), 3) << run.out();
+  Process run(run_options(source, scratch / "session", scratch / "result.json", kUntilIdle));
+  EXPECT_EQ(run.exit_code(30s), exit_code) << run.out();
   const std::string line = run.err();
   EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
   for (const std::string& word : words) EXPECT_NE(line.find(word), std::string::npos) << line;
   EXPECT_FALSE(std::filesystem::exists(scratch / "result.json"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "session")) << "an empty session is left behind";
 }
+
+void expect_device_failure(const std::string& source, const std::vector<std::string>& words) {
+  expect_failure(3, source, words);
+}
+
+TEST(RunRefusals, ARecordingThatIsNotThere) { expect_failure(2, "replay:nowhere.csv", {"nowhere.csv: No such file"}); }
 
 TEST(RunRefusals, NobodyListensAtThePort) { expect_device_failure("modbus-tcp://127.0.0.1:1", {"127.0.0.1:1"}); }
 

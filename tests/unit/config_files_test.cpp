@@ -188,6 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadFile{"capacity = 5", ":1: key 'capacity': 5 is out of range"},
                     BadFile{"[panel]\nport = 70000", ":2: key 'panel.port': 70000 is out of range"},
                     BadFile{"[panel]\nallow = [1]", ":2: key 'panel.allow': must be a list of texts"},
+                    BadFile{"[panel]\nallow = [\"x\"]", ":2: key 'panel.allow': 'x' is no numeric address"},
                     BadFile{"[fit]\nmode = \"best\"", ":2: key 'fit.mode': 'best' is none of: least_squares, minimax"},
                     BadFile{"[fit]\nleading_edge = \"u:0:1\"", ":2: key 'fit.leading_edge': must be a list of texts"},
                     BadFile{"[fit]\nleading_edge = [\"w:0:1\"]",

@@ -131,6 +131,7 @@ TEST(DesignBadInput, NotANumber) {
       expect_message(step_message, "\"" + wrong + "\" is not a finite number");
   }
   expect_message(message_of("a.igs", iges_with(first, "")), "is \"\", which is not a finite number");
+  expect_message(message_of("a.igs", iges_with(first, "1e300")), "control point (0, 0) is over 1000000000 mm away");
 }
 
 TEST(DesignBadInput, NoSurface) {

@@ -22,8 +22,9 @@ LoadedDesign load_image(const std::filesystem::path& path, OutwardOption outward
   design.image.assign(content.begin(), content.end());
   DesignImage view;
   if (const Status status = DesignImage::open(design.image, view); status != Status::ok) {
-    throw DesignError(fmt::format("{}: not a usable design image: {}; compile the design again", path.string(),
-                                  design.image.empty() ? "the file is empty" : status_text(status)));
+    throw DesignError(
+        fmt::format("{}: not a usable design image: {}", path.string(),
+                    design.image.empty() ? "the file is empty: compile the design again" : status_text(status)));
   }
   const int stored = view.header().outward;
   if (outward == OutwardOption::automatic) {

@@ -15,6 +15,8 @@ namespace {
 constexpr double kSameKnot = 1e-12;
 /// A parameter range may stand out of the knots by this part of the range, since some systems print it in few digits.
 constexpr double kRangeOvershoot = 1e-6;
+/// No blade is larger than this [mm], and beyond it squares of squares leave the range of numbers.
+constexpr double kLargestCoordinate = 1e9;
 
 /// What is being checked, for messages, and where the mended things are listed.
 struct Context {
@@ -145,6 +147,10 @@ void check_net(const NurbsSurface& surface, const Context& context) {
     const std::size_t j = k % static_cast<std::size_t>(surface.v.control_points);
     if (!surface.control_points[k].allFinite()) {
       context.fail(fmt::format("control point ({}, {}) is not a finite number; export the surface again", i, j));
+    }
+    if (surface.control_points[k].cwiseAbs().maxCoeff() > kLargestCoordinate) {
+      context.fail(fmt::format("control point ({}, {}) is over {} mm away; correct the file or its unit", i, j,
+                               kLargestCoordinate));
     }
     if (!std::isfinite(surface.weights[k]) || surface.weights[k] <= 0) {
       context.fail(fmt::format("weight ({}, {}) is {}, but weights must be above 0; export the surface again", i, j,
