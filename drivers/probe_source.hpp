@@ -22,6 +22,7 @@ struct SourceStatus {
   LinkState link = LinkState::connecting;
   bool finished = false;      ///< the device said that the program is finished, and every record was delivered
   bool gap = false;           ///< records were lost in the device and cannot be had again
+  bool device_fault = false;  ///< the device says that it has a fault
   bool behind = false;        ///< records are known to be there that have not been delivered yet
   std::uint32_t run_id = 0;   ///< the device's run; another value means that numbering has restarted; 0 = unknown
   std::uint64_t records = 0;  ///< good records received, resent ones included

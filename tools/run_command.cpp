@@ -107,6 +107,12 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
   // A session that was refused is not this run's to report on.
   const bool refused = session.error.fault == Fault::bad_input;
   if (session.error && (refused || session.points.empty())) return exit_code_of(session.error);
+  if (!session.refused.empty()) {
+    fmt::print(stderr,
+               "bladefit: {} points, the first of them number {}, cannot be used: no numbers, or over a thousand half "
+               "sizes of the blade away; probe them again\n",
+               session.refused.size(), session.refused.front());
+  }
   if (session.points.empty()) {
     throw DesignError(
         fmt::format("the session in {} has no point that can be used: nothing can be said of the blade; "

@@ -26,7 +26,7 @@ void RingReader::restart(std::uint32_t after) {
   next_ = after + 1;
   taken_ = after;
   tries_ = losses_seen_ = overflows_seen_ = finishes_seen_ = overshoots_seen_ = 0;
-  fault_told_ = stopped_ = false;
+  stopped_ = false;
 }
 
 void RingReader::observe(const CmmHeader& header) {
@@ -35,8 +35,8 @@ void RingReader::observe(const CmmHeader& header) {
   if (!adopted || stopped_) return;
   current_ = header;
   const bool fault = (header.status & settings_.map.fault_mask) != 0;
-  if (fault && !fault_told_) note_fault(status_, "the device reports a fault; see its own screen");
-  fault_told_ = fault;
+  if (fault && !status_.device_fault) note_fault(status_, "the device reports a fault; see its own screen");
+  status_.device_fault = fault;
   note_losses(header);
   mend_overshoot(header);
   note_finish(header);

@@ -63,7 +63,6 @@ class RingReader {
   std::uint32_t taken_ = 0;  ///< last record that was good
   int tries_ = 0;            ///< how often the record next_ was found damaged
   int losses_seen_ = 0, overflows_seen_ = 0, finishes_seen_ = 0, overshoots_seen_ = 0;
-  bool fault_told_ = false;
   bool stopped_ = false;
 };
 

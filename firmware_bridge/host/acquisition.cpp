@@ -107,19 +107,25 @@ void Acquisition::follow_commands() {
 void Acquisition::follow_source() {
   const SourceStatus& status = source_.status();
   announce_changes(status);
-  shared_.link_figures.publish({status.link, status.gap, shared_.paused.load()});
+  shared_.link_figures.publish({status.link, status.gap, shared_.paused.load(), status.device_fault});
   if (!status.finished || finish_taken_) return;
   finish_taken_ = true;
   take({EventKind::finished, {}});
 }
 
 void Acquisition::announce_changes(const SourceStatus& status) {
-  const bool announce = status.link != announced_link_ || status.gap != announced_gap_;
+  const bool announce =
+      status.link != announced_link_ || status.gap != announced_gap_ || status.device_fault != announced_fault_;
   if (status.link != announced_link_ && status.link == LinkState::lost) {
     shared_.notice(fmt::format("link lost: {}", status.last_fault));
   }
   if (status.link != announced_link_ && status.link == LinkState::up) shared_.notice("link is up again");
   if (status.losses != announced_losses_) shared_.notice(status.last_loss);
+  if (status.device_fault != announced_fault_) {
+    shared_.notice(status.device_fault ? "the device reports a fault; see its own screen"
+                                       : "the device's fault is over");
+  }
+  announced_fault_ = status.device_fault;
   announced_link_ = status.link;
   announced_gap_ = status.gap;
   announced_losses_ = status.losses;

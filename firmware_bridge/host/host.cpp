@@ -169,7 +169,7 @@ SessionResult Host::finish() {
   shared_.publication_wakeup.signal();
   for (std::thread& thread : running_->threads) thread.join();
   SessionResult result{
-      .end = shared_.end.load(), .error = shared_.error(), .report = {}, .points = {}, .verdicts = {}, .refused = 0};
+      .end = shared_.end.load(), .error = shared_.error(), .report = {}, .points = {}, .verdicts = {}, .refused = {}};
   JournalContent recorded;
   const HostError unreadable = read_journal(journal_path(settings_.session_directory), recorded);
   if (unreadable && !result.error) result.error = unreadable;
@@ -189,7 +189,7 @@ SessionResult Host::finish() {
     // A point whose place was given away keeps the last verdict that came out for it.
     [[maybe_unused]] const Status status = running_->localizer->verdict_of(event.point.sequence, verdict);
     if (!has_foot(verdict)) {
-      ++result.refused;
+      result.refused.push_back(event.point.sequence);
       continue;
     }
     result.points.push_back(event.point);

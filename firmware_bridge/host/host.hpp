@@ -28,9 +28,9 @@ struct SessionResult {
   SessionEnd end = SessionEnd::running;
   HostError error;  ///< set where `end` is failed; the rest then tells of the points on disk
   FitReport report;
-  std::vector<ProbePoint> points;  ///< as journalled, rising sequence
-  std::vector<Verdict> verdicts;   ///< final ones; verdicts[i] is that of points[i]
-  std::uint32_t refused = 0;       ///< journalled records that cannot be used; they are not among `points`
+  std::vector<ProbePoint> points;      ///< as journalled, rising sequence
+  std::vector<Verdict> verdicts;       ///< final ones; verdicts[i] is that of points[i]
+  std::vector<std::uint32_t> refused;  ///< journalled records that cannot be used; they are not among `points`
 };
 
 /// The ready host: takes points from a source, keeps them in the journal of a session, judges them and serves a panel,

@@ -41,6 +41,7 @@ struct LinkFigures {
   LinkState link = LinkState::connecting;
   bool gap = false;
   bool paused = false;
+  bool device_fault = false;
 };
 
 /// All that the threads of a host share. Everything in it may be used by two threads at once in the way that its own

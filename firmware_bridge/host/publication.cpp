@@ -118,7 +118,7 @@ void Publication::update_places() {
 }
 
 SessionState Publication::session_state() {
-  if (shared_.failed.load()) return SessionState::fault;
+  if (shared_.failed.load() || link_.device_fault) return SessionState::fault;
   if (link_.paused) return SessionState::idle;
   if (link_.link == LinkState::connecting) return SessionState::connecting;
   if (figures_.report.status == FitStatus::underdetermined) return SessionState::collecting;

@@ -93,6 +93,7 @@ class ScriptedSource : public ProbeSource {
     opened_after = after;
     status_.link = LinkState::up;
     status_.run_id = run_id;
+    status_.device_fault = device_fault;
     return {};
   }
 
@@ -119,6 +120,7 @@ class ScriptedSource : public ProbeSource {
   std::uint32_t run_id = 7;
   std::uint32_t later_run_id = 0;     ///< once it is silent it says that it is in this run; 0 = no change
   std::size_t stop_after = SIZE_MAX;  ///< falls silent after so many points
+  bool device_fault = false;
   std::uint32_t opened_after = 0;
   std::uint32_t acknowledged = 0;
   bool closed = false;
