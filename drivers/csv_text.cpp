@@ -28,10 +28,10 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 }
 
 std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  const std::size_t end = text.find_first_of("\r\n");
+  const std::string_view line = text.substr(0, end);
+  const std::size_t ending = text.substr(line.size()).starts_with("\r\n") ? 2 : 1;
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + ending);
   return trimmed(line);
 }
 

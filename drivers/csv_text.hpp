@@ -21,7 +21,8 @@ struct CsvPlace {
 /// The cells of a line between its commas, without blanks around them.
 [[nodiscard]] std::vector<std::string_view> cells_of(std::string_view line);
 
-/// Takes the first line off `text`, which must not be empty, and returns it without blanks around it.
+/// Takes the first line off `text`, which must not be empty, and returns it without blanks around it. A line ends with
+/// LF, CR LF or CR.
 [[nodiscard]] std::string_view take_line(std::string_view& text);
 
 /// Takes the mark that some systems put before UTF-8 off `text`.

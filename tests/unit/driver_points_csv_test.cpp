@@ -21,6 +21,15 @@ TEST(PointsCsv, ReadsEveryColumnInAnyOrder) {
   EXPECT_TRUE(file.has_path);
 }
 
+TEST(PointsCsv, TakesEveryKindOfLineEnd) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const PointsFile file = parse_points_csv("x,y,z" + end + end + "1,2,3" + end + "4,5,6", "a.csv", 1);
+    ASSERT_EQ(file.error, "");
+    EXPECT_EQ(file.points.size(), 2U);
+    EXPECT_EQ(parse_points_csv("x,y,z" + end + end + "1,2,q", "a.csv", 1).error.substr(0, 8), "a.csv:3:");
+  }
+}
+
 TEST(PointsCsv, ScalesLengthsAndNotDirections) {
   const PointsFile file = parse_points_csv("x,y,z,i,j,k\n1,-2,3e1,0.6,0.8,0\n", "a.csv", 25.4);
   ASSERT_EQ(file.error, "");
