@@ -115,7 +115,9 @@ void add_localize_command(CLI::App& app, int& exit_code) {
   command->add_option("--points", flags->points, "CSV with columns x,y,z and optionally i,j,k and path")->required();
   command->add_option("--subset", flags->subset,
                       "file of row numbers of the points to use, counted from 0, one a line");
-  command->add_option("--json", flags->json, "write result.json here; - writes it to standard output");
+  command->add_option(
+      "--json", flags->json,
+      "write result.json here; - writes it to standard output; its indices count points from 0, the words from 1");
   command->add_option("--config", flags->config,
                       "TOML with a [fit] table (see config/fit.toml); options given here win over it");
   command->add_option(
