@@ -148,12 +148,8 @@ void ModbusSource::begin(Purpose purpose, const ModbusRequest& request) {
 
 void ModbusSource::finish_transaction(Clock::time_point until) {
   const LinkEvent event = link_->receive(registers_, until);
-  if (event == LinkEvent::pending) return;
-  if (event == LinkEvent::done) {
-    transaction_done();
-  } else {
-    transaction_failed(event);
-  }
+  if (event == LinkEvent::done) return transaction_done();
+  if (event != LinkEvent::pending) transaction_failed(event);
 }
 
 void ModbusSource::transaction_done() {
