@@ -21,7 +21,6 @@ struct SourceError {
 struct SourceStatus {
   LinkState link = LinkState::connecting;
   bool finished = false;      ///< the device said that the program is finished, and every record was delivered
-  bool gap = false;           ///< records were lost in the device and cannot be had again
   bool device_fault = false;  ///< the device says that it has a fault
   bool behind = false;        ///< records are known to be there that have not been delivered yet
   std::uint32_t run_id = 0;   ///< the device's run; another value means that numbering has restarted; 0 = unknown
@@ -32,13 +31,13 @@ struct SourceStatus {
   std::uint64_t reconnects = 0;
   std::uint32_t consecutive_faults = 0;  ///< 0 after any good exchange
   std::string last_fault;                ///< the newest fault in words; empty = none so far
-  std::uint64_t losses = 0;              ///< how often `gap` had a reason
-  std::string last_loss;                 ///< the newest of these in words: which records, why, and the mend
+  std::uint64_t losses = 0;              ///< how often records were lost in the device, not to be had again
+  std::string last_loss;                 ///< the newest in words: which records, why, and the mend
 };
 
 /// Where probe points come from: a machine or a recording. One thread owns it.
 /// It delivers every record once, in rising sequence order, whatever the link does in between; a jump in the sequence
-/// happens only where the device itself has lost records, and then status().gap is set.
+/// happens only where the device itself has lost records, which status().losses counts.
 class ProbeSource {
  public:
   virtual ~ProbeSource() = default;

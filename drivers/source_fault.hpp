@@ -14,7 +14,6 @@ inline void note_fault(SourceStatus& status, std::string text) {
 
 /// Publishes that records are lost for good, as a fault and by itself.
 inline void note_loss(SourceStatus& status, const std::string& text) {
-  status.gap = true;
   ++status.losses;
   status.last_loss = text;
   note_fault(status, text);

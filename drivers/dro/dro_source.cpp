@@ -51,7 +51,7 @@ void DroSource::step(Clock::time_point until) {
   if (!port_->is_open()) return reconnect(until);
   std::array<char, 4096> bytes{};
   const std::optional<std::size_t> count = port_->read(bytes, until);
-  if (!count) return link_lost("the port has hung up; check the cable, and probe again what was probed meanwhile");
+  if (!count) return link_lost();
   for (std::size_t index = 0; index < *count; ++index) take(bytes[index]);
 }
 
@@ -91,9 +91,9 @@ void DroSource::take_line() {
   }
 }
 
-void DroSource::link_lost(const std::string& fault) {
-  note_loss(status_, fault);
-  port_.lost(fault, status_);
+void DroSource::link_lost() {
+  note_loss(status_, "points probed while the port is down are lost; probe them again once the link is up");
+  port_.lost("the port has hung up; check the cable", status_);
 }
 
 void DroSource::reconnect(Clock::time_point until) {

@@ -8,7 +8,7 @@
 namespace bladefit {
 
 /// A machine that merely prints its position, a line for each point. Nothing can be asked for again, so a line that
-/// cannot be read, or a lost link, is a gap. Points are numbered here; run id and end are unknown.
+/// cannot be read, or a lost link, is a loss. Points are numbered here; run id and end are unknown.
 class DroSource final : public ProbeSource {
  public:
   explicit DroSource(const SourceSettings& settings);
@@ -24,7 +24,7 @@ class DroSource final : public ProbeSource {
 
   void step(Clock::time_point until);
   void reconnect(Clock::time_point until);
-  void link_lost(const std::string& fault);
+  void link_lost();
   void take(char byte);
   void take_line();
 

@@ -202,7 +202,7 @@ bool ModbusSource::foreign(const CmmHeader& header) const {
 
 /// The first good header after the link was made.
 void ModbusSource::identify(const CmmHeader& header) {
-  run_id_ = header.run_id;
+  if (header.run_id != 0) run_id_ = header.run_id;
   next_command_ = settings_.modbus.map.command.present ? command_for(header) : std::uint16_t{0};
   status_.link = LinkState::up;
   stage_ = Stage::announce;

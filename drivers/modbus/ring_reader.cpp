@@ -72,7 +72,7 @@ bool RingReader::adopt_identity(const CmmHeader& header) {
 
 void RingReader::note_losses(const CmmHeader& header) {
   overflows_seen_ = (header.status & settings_.map.overflow_mask) != 0 ? overflows_seen_ + 1 : 0;
-  if (overflows_seen_ == kHeadersForLoss && !status_.gap) {
+  if (overflows_seen_ == kHeadersForLoss && status_.losses == 0) {
     note_loss(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
   }
   const bool lost = header.newest > header.capacity && header.newest - header.capacity + 1 > next_;

@@ -107,7 +107,7 @@ void Acquisition::follow_commands() {
 void Acquisition::follow_source() {
   const SourceStatus& status = source_.status();
   announce_changes(status);
-  shared_.link_figures.publish({status.link, status.gap, shared_.paused.load(), status.device_fault});
+  shared_.link_figures.publish({status.link, status.losses, shared_.paused.load(), status.device_fault});
   if (!status.finished || finish_taken_) return;
   finish_taken_ = true;
   take({EventKind::finished, {}});
@@ -115,7 +115,7 @@ void Acquisition::follow_source() {
 
 void Acquisition::announce_changes(const SourceStatus& status) {
   const bool announce =
-      status.link != announced_link_ || status.gap != announced_gap_ || status.device_fault != announced_fault_;
+      status.link != announced_link_ || status.losses != announced_losses_ || status.device_fault != announced_fault_;
   if (status.link != announced_link_ && status.link == LinkState::lost) {
     shared_.notice(fmt::format("link lost: {}", status.last_fault));
   }
@@ -127,7 +127,6 @@ void Acquisition::announce_changes(const SourceStatus& status) {
   }
   announced_fault_ = status.device_fault;
   announced_link_ = status.link;
-  announced_gap_ = status.gap;
   announced_losses_ = status.losses;
   if (announce) shared_.publication_wakeup.signal();
 }

@@ -55,7 +55,7 @@ class Acquisition {
   bool finish_taken_ = false;
   bool opened_ = false;
   LinkState announced_link_ = LinkState::up;
-  bool announced_gap_ = false, announced_fault_ = false;
+  bool announced_fault_ = false;
   std::uint64_t announced_losses_ = 0;
   Clock::time_point last_point_ = Clock::now();
 };

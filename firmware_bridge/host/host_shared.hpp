@@ -39,7 +39,7 @@ struct FitFigures {
 /// What the acquisition thread tells of the source.
 struct LinkFigures {
   LinkState link = LinkState::connecting;
-  bool gap = false;
+  std::uint64_t losses = 0;  ///< how often points were lost in the device
   bool paused = false;
   bool device_fault = false;
 };

@@ -132,7 +132,7 @@ std::uint16_t Publication::alarms() const {
   if (state_.leading_edge_out > 0 && !seen) bits |= kAlarmLeadingEdgeOut;
   if (state_.rest_out > 0 && !seen) bits |= kAlarmRestOut;
   if (link_.link == LinkState::lost) bits |= kAlarmLinkLost;
-  if (link_.gap && !gap_acknowledged_) bits |= kAlarmDataGap;
+  if (link_.losses != acknowledged_losses_) bits |= kAlarmDataGap;
   if (report.memory_full) bits |= kAlarmMemoryFull;
   if (report.status == FitStatus::infeasible) bits |= kAlarmInfeasible;
   return static_cast<std::uint16_t>(bits);
@@ -144,7 +144,7 @@ void Publication::follow(const PanelCommands& commands) {
   if (commands.reset) shared_.reset_requested.store(true);
   if (!commands.acknowledge) return;
   acknowledged_times_out_ = tally_.times_out();
-  gap_acknowledged_ = link_.gap;
+  acknowledged_losses_ = link_.losses;
 }
 
 }  // namespace bladefit

@@ -41,7 +41,7 @@ class Publication {
   PanelState state_;
   std::uint32_t last_sequence_ = 0;
   std::uint64_t acknowledged_times_out_ = 0;
-  bool gap_acknowledged_ = false;
+  std::uint64_t acknowledged_losses_ = 0;
   Clock::time_point start_ = Clock::now();
 };
 

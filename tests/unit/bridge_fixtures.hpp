@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -81,6 +82,16 @@ inline LocalizerConfig blade_config() {
   return config;
 }
 
+/// A session of these tests in `folder`: a panel at a free port, and an end when the device says so.
+inline HostSettings settings_for(const std::string& folder) {
+  HostSettings settings;
+  settings.localizer = blade_config();
+  settings.session_directory = folder;
+  settings.panel.port = 0;
+  settings.end_when_finished = true;
+  return settings;
+}
+
 /// A device that delivers given points in portions of random length, and says that it is finished after them.
 class ScriptedSource : public ProbeSource {
  public:
@@ -102,6 +113,7 @@ class ScriptedSource : public ProbeSource {
     if (next_ >= end) {
       status_.finished = next_ == points_.size();
       if (later_run_id != 0) status_.run_id = later_run_id;
+      status_.losses = losses;
       std::this_thread::sleep_for(timeout);
       return 0;
     }
@@ -121,6 +133,7 @@ class ScriptedSource : public ProbeSource {
   std::uint32_t later_run_id = 0;     ///< once it is silent it says that it is in this run; 0 = no change
   std::size_t stop_after = SIZE_MAX;  ///< falls silent after so many points
   bool device_fault = false;
+  std::atomic<std::uint64_t> losses{0};  ///< how many it tells of once it is silent
   std::uint32_t opened_after = 0;
   std::uint32_t acknowledged = 0;
   bool closed = false;

@@ -8,7 +8,6 @@
 
 #include "firmware_bridge/host/journal.hpp"
 #include "tests/unit/bridge_fixtures.hpp"
-#include "tools/panel_client.hpp"
 
 namespace bladefit {
 namespace {
@@ -19,17 +18,9 @@ using testing::blade_config;
 using testing::measured_points;
 using testing::ScratchFolder;
 using testing::ScriptedSource;
+using testing::settings_for;
 
 constexpr std::size_t kPoints = 400;
-
-HostSettings settings_for(const std::string& folder) {
-  HostSettings settings;
-  settings.localizer = blade_config();
-  settings.session_directory = folder;
-  settings.panel.port = 0;
-  settings.end_when_finished = true;
-  return settings;
-}
 
 SessionResult run_to_end(const HostSettings& settings, ProbeSource& source) {
   Host host(settings, blade(), source, {});
@@ -216,66 +207,6 @@ TEST(BridgeHost, StopsWhenAskedWithAFullResult) {
   const SessionResult result = host.finish();
   EXPECT_EQ(result.end, SessionEnd::stopped);
   EXPECT_EQ(result.verdicts.size(), 20U);
-}
-
-/// Reads the panel until `wanted` holds.
-template <typename Condition>
-bool panel_shows(std::uint16_t port, PanelState& state, Condition wanted) {
-  PanelClient client("127.0.0.1", port);
-  const auto deadline = std::chrono::steady_clock::now() + 20s;
-  while (std::chrono::steady_clock::now() < deadline) {
-    if (client.read(state).empty() && wanted(state)) return true;
-    std::this_thread::sleep_for(5ms);
-  }
-  return false;
-}
-
-TEST(BridgeHost, ThePanelShowsAFaultOfTheDevice) {
-  const ScratchFolder folder;
-  HostSettings settings = settings_for(folder / "session");
-  settings.end_when_finished = false;
-  ScriptedSource source(measured_points(kPoints));
-  source.device_fault = true;
-  Host host(settings, blade(), source, {});
-  ASSERT_FALSE(host.start());
-  PanelState state;
-  EXPECT_TRUE(panel_shows(host.panel_port(), state, [](const PanelState& shown) {
-    return shown.points == kPoints && shown.session == SessionState::fault;
-  }));
-  host.request_stop();
-  ASSERT_TRUE(host.wait_for_end(10s));
-  EXPECT_FALSE(host.finish().error);
-}
-
-TEST(BridgeHost, ThePanelShowsTheSession) {
-  const ScratchFolder folder;
-  HostSettings settings = settings_for(folder / "session");
-  settings.end_when_finished = false;
-  ScriptedSource source(measured_points(kPoints));
-  Host host(settings, blade(), source, {});
-  ASSERT_FALSE(host.start());
-  PanelState state;
-  ASSERT_TRUE(panel_shows(host.panel_port(), state, [](const PanelState& shown) {
-    return shown.points == kPoints && shown.session == SessionState::settled;
-  }));
-  host.request_stop();
-  ASSERT_TRUE(host.wait_for_end(10s));
-  const SessionResult result = host.finish();
-  EXPECT_EQ(state.leading_edge_out, result.report.leading_edge.judged_out);
-  EXPECT_EQ(state.rest_out, result.report.rest.judged_out);
-  EXPECT_EQ(state.rms, static_cast<float>(result.report.rms_mm));
-  EXPECT_EQ(state.worst_leading_edge_sequence, result.report.leading_edge.worst_sequence);
-  EXPECT_EQ(state.last_sequence, kPoints);
-  EXPECT_EQ(state.determined, 6);
-  EXPECT_GT(state.push_latency_us, 0.0F);
-  for (const PanelPlace& place : state.newest) {
-    if (place.sequence == 0) continue;
-    const Verdict& verdict = result.verdicts.at(place.sequence - 1);
-    EXPECT_EQ(verdict.state, PointState::out);
-    EXPECT_EQ(place.distance, static_cast<float>(verdict.foot.distance));
-    EXPECT_EQ(place.action, verdict.action);
-    EXPECT_GT(place.radius, 20.0F);
-  }
 }
 
 }  // namespace
