@@ -29,6 +29,8 @@ constexpr double kWornBeyond = 5e-4;
 constexpr std::uint32_t kCatchUp = 8;
 /// Rivals of a foot are sought up to this much farther [half diagonals], so that it can be tracked for half as long.
 constexpr double kSearchMargin = 2e-3;
+/// A point may be drawn over an edge where it counts, and back where it does not. Left out so often, it stays out.
+constexpr std::uint8_t kMostExits = 4;
 /// Directions below this share of the largest eigenvalue are rounding.
 constexpr double kNumericalRank = 1e-13;
 
@@ -63,8 +65,8 @@ bool config_valid(const LocalizerConfig& c, std::size_t patches) {
       std::isfinite(c.ratio) && c.ratio > 0.0 && (c.mode != FitMode::constrained || std::isfinite(c.tolerance.rest_mm));
   const bool loss = std::isfinite(c.loss_scale_mm) && c.loss_scale_mm >= 0.0 &&
                     (c.loss == Loss::none || c.mode == FitMode::least_squares);
-  return sizes && lengths && window && modes && loss && c.locked < kLockAll && pose_valid(c.start) &&
-         tolerances_valid(c.tolerance, patches);
+  return sizes && lengths && window && modes && loss && c.locked < kLockAll && c.further_starts <= 12 &&
+         pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
 }
 
 }  // namespace
@@ -120,7 +122,7 @@ void Localizer::reset() {
   sigma_ = config_.noise_floor_mm;
   begin_loss();
   stop_trackers();
-  concluded_ = converged_ = has_last_ = regions_held_ = infeasible_ = false;
+  concluded_ = converged_ = has_last_ = regions_held_ = exits_count_ = infeasible_ = false;
   tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0;
   certificate_ = Certificate();
   unproven_ = 0;
@@ -190,12 +192,13 @@ bool Localizer::outside_window(const StoredPoint& point) const {
 
 bool Localizer::left_out(const StoredPoint& point, const Foot& foot) const {
   if (regions_held_) return point.held_out;
-  return point.outside_window || (foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip);
+  return point.outside_window || (exits_count_ && point.exits >= kMostExits) ||
+         (foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip);
 }
 
 Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   if (const Status status = check(point); status != Status::ok) return status;
-  refinement_.active = concluded_ = converged_ = regions_held_ = infeasible_ = false;
+  refinement_.active = concluded_ = converged_ = regions_held_ = exits_count_ = infeasible_ = false;
   StoredPoint passing = made_from(point, last_place_);
   const Measurement measurement = measure(passing, pose_, Search::past_lead);
   StoredPoint* place = store(passing, measurement);

@@ -5,6 +5,7 @@
 
 #include "core/fit/bound_tracker.hpp"
 #include "core/fit/bounded_fit.hpp"
+#include "core/fit/further_starts.hpp"
 #include "core/fit/loss.hpp"
 #include "core/fit/pose.hpp"
 #include "core/fit/pose_solver.hpp"
@@ -47,6 +48,9 @@ struct LocalizerConfig {
   /// 1.4826 times the median distance at the optimum.
   Loss loss = Loss::none;
   double loss_scale_mm = 0;  ///< standard deviation of good points
+  /// Modes beside least squares have several optima. Once they have found one, and no more points come, they start
+  /// so many times again from elsewhere (0..12) and keep the best.
+  std::uint32_t further_starts = 12;
 };
 
 enum class FitStatus : std::uint8_t { underdetermined = 0, tracking = 1, converged = 2, infeasible = 3 };
@@ -86,6 +90,8 @@ struct FitReport {
   double smallest_tolerance_mm = 0;
   Certificate certificate;  ///< of that optimum; no points in least squares, range and a feasible constrained fit
   double stationarity = 0;  ///< of its Karush-Kuhn-Tucker conditions, relative: the self check of the mode
+  std::uint32_t further_starts = 0;  ///< from how many other poses the optimum was sought again
+  std::uint32_t same_optimum = 0;    ///< how many of these led to the same one; the others to worse ones
   std::uint32_t unproven =
       0;  ///< feet whose search met its cap in the last sweep of refine(): then it is not converged
   std::uint32_t searches = 0;  ///< global searches for the feet of stored points so far, those for a window left out
@@ -168,6 +174,7 @@ class Localizer {
     Vec6 last_step = Vec6::Zero();
     Pose rows_pose;        ///< of the sweep before
     double travelled = 0;  ///< from there to that of this sweep [mm]
+    FurtherStarts further;
   };
 
   [[nodiscard]] Status check(const ProbePoint& point) const;
@@ -204,6 +211,7 @@ class Localizer {
   void begin_sweep();
   void refresh(std::uint32_t budget);
   double solve();
+  [[nodiscard]] bool visit_next(Status& status);
   [[nodiscard]] bool finish_refine_sweep(Status& status);
   [[nodiscard]] bool retreat();
   [[nodiscard]] Status least_squares_step();
@@ -226,6 +234,18 @@ class Localizer {
   [[nodiscard]] Status bounded_step();
   [[nodiscard]] Status bounded_optimum();
   void certify();
+  [[nodiscard]] double reach() const { return 0.05 * frame_.length; }  ///< longest step of a program
+  void plan_further_starts();
+  [[nodiscard]] bool begin_further_starts(double own_value);
+  void begin_start();
+  [[nodiscard]] bool visit_from_start(Status& status);
+  void finish_start_sweep();
+  void end_start(double value);
+  [[nodiscard]] bool end_further_starts(Status& status);
+  [[nodiscard]] bool go_back();
+  [[nodiscard]] bool seek_better(double value);
+  [[nodiscard]] bool go_elsewhere();
+  [[nodiscard]] FitMode sought_mode() const;
   [[nodiscard]] double assign_regions();
   void include_row(std::uint32_t index, const Measurement& measurement);
   [[nodiscard]] double threshold() const;
@@ -253,6 +273,7 @@ class Localizer {
   BoundTracker tracker_, least_;
   std::uint32_t looked_at_ = 0;  ///< points since the programs last moved
   bool regions_held_ = false;    ///< points keep region and tolerance whatever their feet
+  bool exits_count_ = false;     ///< points that were left out too often stay so
   bool infeasible_ = false;
   double tolerance_factor_ = 0, smallest_tolerance_ = 0, stationarity_ = 0;
   Certificate certificate_;

@@ -6,8 +6,6 @@
 namespace bladefit {
 namespace {
 
-/// Longest step of one program [half diagonals].
-constexpr double kReach = 0.05;
 /// Regions follow the feet this many times at most: then they do not come to rest.
 constexpr std::uint32_t kMaxRounds = 20;
 /// So many times they do so freely; then tolerances only become tighter.
@@ -56,9 +54,10 @@ void Localizer::begin_bounded(FitMode mode) {
     // Which points count is settled by the least-squares fit: none escapes its bound over an edge.
     for (std::uint32_t i = 0; i < stored_; ++i) points_[i].held_out = left_out(points_[i], points_[i].foot);
     (void)assign_regions();
+    plan_further_starts();
   }
   regions_held_ = r.bounded = true;
-  bounded_.begin(mode, stored_, kReach * frame_.length);
+  bounded_.begin(mode, stored_, reach());
   r.last_step.setConstant(frame_.length);  // the next sweep takes rows at the same pose: no foot needs a search
   r.sweeps = 0;
 }
@@ -105,7 +104,7 @@ Status Localizer::bounded_optimum() {
   }
   infeasible_ = !optimum;
   certify();
-  return Status::ok;
+  return bounded_.mode() != FitMode::constrained && seek_better(value) ? Status::more_work : Status::ok;
 }
 
 /// What is told of an optimum: its value and the points that prove it.

@@ -20,7 +20,8 @@ void Localizer::begin_sweep() {
   filling_ = frozen_;
   filling_.model = shifted(frozen_.model, pose_, frame_);
   cursor_ = 0;
-  if (refinement_.bounded) bounded_.set_basis(free_motions(pose_, config_.locked, frame_));
+  const Pose& pose = refinement_.further.active ? refinement_.further.pose : pose_;
+  if (refinement_.bounded) bounded_.set_basis(free_motions(pose, config_.locked, frame_));
   refinement_.travelled = motion_between(refinement_.rows_pose, pose_, frame_).norm();
   refinement_.rows_pose = pose_;
 }
@@ -67,15 +68,30 @@ bool Localizer::finish_refine_sweep(Status& status) {
   redetermine_ = true;
   ++r.sweeps;
   status = r.bounded ? bounded_step() : least_squares_step();
+  if (status == Status::more_work && r.sweeps >= kMaxSweeps) status = Status::iteration_cap;
+  if (status == Status::iteration_cap && go_elsewhere()) status = Status::more_work;
   unproven_ = r.unproven;
   converged_ = status == Status::ok && unproven_ == 0;
   if (status == Status::ok && unproven_ > 0) status = Status::iteration_cap;
   infeasible_ = infeasible_ && converged_;
   r.thorough = r.last_step.norm() <= kCheckedAbove * frame_.length;
   r.changed = r.unproven = 0;
-  if (status == Status::more_work && r.sweeps >= kMaxSweeps) status = Status::iteration_cap;
   begin_sweep();
   return status != Status::more_work;
+}
+
+/// Projects the next point of the sweep. True when the refinement is over.
+bool Localizer::visit_next(Status& status) {
+  const Measurement m = measure(points_[cursor_], pose_, sweep_search(points_[cursor_]));
+  if (m.changed) ++refinement_.changed;
+  if (!m.proven) ++refinement_.unproven;
+  StoredPoint& point = points_[cursor_];
+  const bool exits = !left_out(point, point.foot) && left_out(point, m.foot);
+  if (exits && point.exits < UINT8_MAX) ++point.exits;
+  note(point, m);
+  include(filling_, point, m, Vec6::Zero());
+  if (refinement_.bounded) include_row(cursor_, m);
+  return ++cursor_ == stored_ && finish_refine_sweep(status);
 }
 
 Status Localizer::refine(std::uint32_t max_points) {
@@ -85,6 +101,8 @@ Status Localizer::refine(std::uint32_t max_points) {
     refinement_ = Refinement();
     refinement_.active = true;
     regions_held_ = infeasible_ = false;
+    exits_count_ = true;
+    for (std::uint32_t i = 0; i < stored_; ++i) points_[i].exits = 0;
     begin_loss();
     stop_trackers();
     // What an earlier refinement found is not told beside what this one may fail to find.
@@ -98,15 +116,7 @@ Status Localizer::refine(std::uint32_t max_points) {
   }
   Status status = Status::more_work;
   for (std::uint32_t k = 0; k < max_points; ++k) {
-    const Measurement m = measure(points_[cursor_], pose_, sweep_search(points_[cursor_]));
-    if (m.changed) ++refinement_.changed;
-    if (!m.proven) ++refinement_.unproven;
-    note(points_[cursor_], m);
-    include(filling_, points_[cursor_], m, Vec6::Zero());
-    if (refinement_.bounded) include_row(cursor_, m);
-    ++cursor_;
-    if (cursor_ < stored_) continue;
-    if (!finish_refine_sweep(status)) continue;
+    if (!(refinement_.further.active ? visit_from_start(status) : visit_next(status))) continue;
     refinement_.active = false;
     for (std::uint32_t i = 0; i < stored_; ++i) rejudge(i);
     if (status == Status::ok && config_.mode != FitMode::least_squares) begin_trackers(1);

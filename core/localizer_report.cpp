@@ -90,6 +90,8 @@ FitReport Localizer::fit() const {
   report.smallest_tolerance_mm = smallest_tolerance_;
   report.certificate = certificate_;
   report.stationarity = stationarity_;
+  report.further_starts = refinement_.further.done ? config_.further_starts : 0;
+  report.same_optimum = refinement_.further.done ? refinement_.further.same : 0;
   report.unproven = unproven_;
   report.searches = searches_;
   report.rest = region_report(current_.regions[0], judged_out_[0]);

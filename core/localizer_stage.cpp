@@ -29,7 +29,7 @@ Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start)
 }
 
 void Localizer::stage(const StoredPoint& passing, Search search) {
-  refinement_.active = converged_ = regions_held_ = infeasible_ = false;
+  refinement_.active = converged_ = regions_held_ = exits_count_ = infeasible_ = false;
   stop_trackers();
   redetermine_ = true;
   settle_all();

@@ -7,8 +7,6 @@
 namespace bladefit {
 namespace {
 
-/// Longest step of one program [half diagonals].
-constexpr double kReach = 0.05;
 /// Steps of a program in one push: each takes the rows of the held points anew.
 constexpr int kStepsPerPush = 2;
 /// Fewer points than this do not begin a program: its solution would follow their noise.
@@ -58,8 +56,8 @@ double Localizer::middle_distance(std::uint32_t stride) const {
 
 /// The programs begin at the present pose with the most outlying of every `stride`-th point.
 void Localizer::begin_trackers(std::uint32_t stride) {
-  tracker_.begin(config_.mode, pose_, kReach * frame_.length);
-  if (config_.mode == FitMode::constrained) least_.begin(FitMode::min_tolerance, pose_, kReach * frame_.length);
+  tracker_.begin(config_.mode, pose_, reach());
+  if (config_.mode == FitMode::constrained) least_.begin(FitMode::min_tolerance, pose_, reach());
   looked_at_ = 0;
   std::array<double, BoundTracker::kPlaces> ratio{};
   std::array<std::uint32_t, BoundTracker::kPlaces> index{};

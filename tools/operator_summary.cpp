@@ -93,6 +93,13 @@ std::string point_list(const Certificate& certificate) {
   return text;
 }
 
+/// How sure it is that no other pose is better, in words.
+std::string other_starts(const FitReport& report) {
+  if (report.further_starts == 0) return "";
+  return fmt::format("; {} of {} further starts led to it, none to a better one", report.same_optimum,
+                     report.further_starts);
+}
+
 /// What the mode found, in words; empty in least squares.
 std::string optimum_line(const FitResult& result, const FitPlan& plan) {
   const FitReport& report = result.report;
@@ -103,12 +110,12 @@ std::string optimum_line(const FitResult& result, const FitPlan& plan) {
                                         point_list(report.certificate), report.stationarity);
   switch (plan.localizer.mode) {
     case FitMode::minimax:
-      return fmt::format("Largest distance: {}, the smallest possible\n", length(factor)) + proof;
+      return fmt::format("Largest distance: {}, the smallest found{}\n", length(factor), other_starts(report)) + proof;
     case FitMode::range:
-      return fmt::format("Range of distances: {}, the smallest possible\n", length(factor));
+      return fmt::format("Range of distances: {}, the smallest found{}\n", length(factor), other_starts(report));
     case FitMode::min_tolerance:
-      return fmt::format("Smallest leading-edge tolerance that can be met: {} ({} elsewhere)\n", length(factor),
-                         length(plan.localizer.ratio * factor)) +
+      return fmt::format("Smallest leading-edge tolerance that can be met: {} ({} elsewhere){}\n", length(factor),
+                         length(plan.localizer.ratio * factor), other_starts(report)) +
              proof;
     case FitMode::constrained:
       return fmt::format(

@@ -141,6 +141,7 @@ std::string result_json(const FitResult& result, const FitPlan& plan) {
   json["regions"]["leading_edge"]["boxes"] = boxes_json(tolerance);
   json["tolerance_factor"] = factor > 0.0 ? Json(factor / unit) : Json(nullptr);
   json["certificate"] = certificate_json(result.report.certificate);
+  json["further_starts"] = {{"count", result.report.further_starts}, {"same", result.report.same_optimum}};
   json["locked"] = names_of_locked(plan.localizer.locked);
   json["loss"] = loss_json(result.report, plan.localizer.loss, unit);
   json["aberrant"] = result.aberrant.limit > 0.0 ? aberrant_json(result.aberrant, unit) : Json(nullptr);

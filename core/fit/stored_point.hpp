@@ -24,6 +24,7 @@ struct StoredPoint {
   bool fresh = false;           ///< its row is taken anew in every push
   bool outside_window = false;  ///< does not count in the fit
   bool held_out = false;        ///< nor does it beyond least squares: its foot was on an edge then
+  std::uint8_t exits = 0;       ///< how often it was left out by the present refinement after it had counted
 };
 
 /// Sums over the points of one region, at the poses they were last projected at.

@@ -63,6 +63,7 @@ class OurFit {
     LocalizerConfig config = fit.config;
     config.mode = mode;
     config.regions = RegionPolicy::fixed;
+    config.further_starts = 0;  // as the peers, which go down from one start
     return config;
   }
 

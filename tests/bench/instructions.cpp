@@ -73,6 +73,7 @@ void count_fit(const char* name, FitMode mode) {
   LocalizerConfig config = config_of(c, points.size());
   config.mode = mode;
   config.regions = RegionPolicy::fixed;
+  config.further_starts = 0;
   OwnedLocalizer localizer(reference_design("arl_fan").image(), config);
   counted(name, [&] {
     for (const ProbePoint& point : points) require(succeeded(localizer->stage(point)), "a point was refused");

@@ -34,11 +34,6 @@ class GoldenModes : public GoldenCase, public ::testing::WithParamInterface<std:
   std::string design_;
 };
 
-/// With 20 points the range has several optima; of this subset the best known is 0.18 % better than the one found.
-bool other_optimum(const ReferenceCase& c, const ReferenceSubset& subset, const std::string& mode) {
-  return c.name == "pnsy_3patch" && subset.name == "020" && mode == "range";
-}
-
 TEST_P(GoldenModes, EveryOptimumAgreesWithItsTruth) {
   for (const ReferenceSubset& subset : case_.subsets) {
     const nlohmann::json truth = read_json(subset.truth);
@@ -48,12 +43,6 @@ TEST_P(GoldenModes, EveryOptimumAgreesWithItsTruth) {
       if (mode == "constrained") more = tolerances(truth[mode]["epsilon"], truth[mode]["delta"]);
       const Outcome outcome = fit(subset, mode, more);
       ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-      if (other_optimum(case_, subset, mode)) {
-        const nlohmann::json result = read_json(scratch("result.json"));
-        EXPECT_EQ(result["status"], "converged");
-        EXPECT_LT(result["tolerance_factor"].get<double>(), 1.002 * truth[mode]["value"].get<double>());
-        continue;
-      }
       const Outcome check = run({"python3", BLADEFIT_TEST_DATA "/check.py", subset.truth, scratch("result.json")});
       EXPECT_EQ(check.exit_code, 0) << case_.name << "/" << subset.name << " " << mode << ": " << check.output;
     }

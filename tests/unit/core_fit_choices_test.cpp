@@ -206,5 +206,32 @@ TEST(CoreStart, AFarStartEndsAtTheSamePose) {
   }
 }
 
+/// Where a point counts it is drawn over an edge, and where it does not it comes back: it must come to rest outside,
+/// and the pose be the optimum of the others.
+TEST(CoreEdges, APointThatWouldComeAndGoIsLeftOut) {
+  const ReferenceCase c = read_case("arl_fan");
+  const CompiledDesign& design = reference_design("arl_fan");
+  const std::vector<ProbePoint> points = thinned(c, 11, 44);
+  const LocalizerConfig config = config_of(c, points.size());
+  OwnedLocalizer localizer(design.image(), config);
+  for (const ProbePoint& point : points) ASSERT_EQ(localizer->stage(point), Status::ok);
+  localizer->conclude();
+  ASSERT_EQ(refine_fully(*localizer), Status::ok);
+  const FitReport report = localizer->fit();
+  EXPECT_EQ(report.fitted + report.rejected, points.size());
+  std::vector<ProbePoint> counted;
+  for (const ProbePoint& point : points) {
+    Verdict verdict;
+    ASSERT_EQ(localizer->verdict_of(point.sequence, verdict), Status::ok);
+    if (verdict.state != PointState::rejected) counted.push_back(point);
+  }
+  ASSERT_EQ(counted.size(), report.fitted);
+  ASSERT_LT(counted.size(), points.size());
+  const Fit others = fit("arl_fan", counted, config);
+  ASSERT_EQ(others.status, Status::ok);
+  EXPECT_LT((others.report.pose.translation - report.pose.translation).norm(), 1e-8);
+  EXPECT_LT((others.report.pose.rotation - report.pose.rotation).norm(), 1e-10);
+}
+
 }  // namespace
 }  // namespace bladefit::testing

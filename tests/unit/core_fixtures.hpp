@@ -71,6 +71,14 @@ inline std::vector<ProbePoint> points_of(const ReferenceCase& c, const std::stri
   throw std::runtime_error("no subset " + subset);
 }
 
+/// Every `stride`-th measured point of a case, from `first` on.
+inline std::vector<ProbePoint> thinned(const ReferenceCase& c, std::size_t first, std::size_t stride) {
+  const std::vector<ProbePoint> all = read_points_csv(c.folder / "points.csv", c.mm_per_unit).points;
+  std::vector<ProbePoint> points;
+  for (std::size_t i = first; i < all.size(); i += stride) points.push_back(all[i]);
+  return points;
+}
+
 /// What case.json asks of a fit, with room for `capacity` points.
 inline LocalizerConfig config_of(const ReferenceCase& c, std::size_t capacity) {
   LocalizerConfig config;
