@@ -46,7 +46,9 @@ bool Localizer::begin_further_starts(double own_value) {
   f.own_value = own_value;
   f.stride = 1 + (stored_ - 1) / kPointsLookedAt;
   const bool compared = f.stride == 1 || own_value == kInfinity;
-  f.found = f.best = compared ? own_value : kInfinity;
+  f.best = kInfinity;
+  if (compared) f.best = own_value;
+  f.found = f.best;
   f.start = compared ? 1 : 0;
   for (std::uint32_t i = 0; i < stored_; ++i) bounded_.skip_row(i);
   begin_start();
