@@ -89,7 +89,7 @@ Status Localizer::bounded_step() {
 Status Localizer::bounded_optimum() {
   Refinement& r = refinement_;
   if (config_.regions == RegionPolicy::follow && assign_regions() > kAtRest) {
-    if (++r.rounds == kMaxRounds) return Status::iteration_cap;
+    if (++r.rounds >= kMaxRounds) return Status::iteration_cap;
     begin_bounded(first_stage());
     return Status::more_work;
   }
