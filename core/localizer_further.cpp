@@ -94,6 +94,7 @@ void Localizer::end_start(double value) {
   FurtherStarts& f = refinement_.further;
   if (f.start == 0) f.found = value;
   if (f.start > 0 && std::abs(value - f.best) <= kSame * f.best) ++f.same;
+  if (f.start > 0 && std::abs(value - f.found) <= kSame * f.found) ++f.same_as_own;
   if (value < f.best * (1.0 - kSame)) {
     f.same = f.start > 0 ? 1 : 0;
     f.best = value;
@@ -126,7 +127,7 @@ bool Localizer::go_back() {
   FurtherStarts& f = refinement_.further;
   if (!f.done || f.gone_back || f.own_value == kInfinity) return false;
   f.gone_back = true;
-  f.same = 0;
+  f.same = f.same_as_own;
   pose_ = f.own_pose;
   ++revision_;
   begin_bounded(sought_mode());

@@ -17,9 +17,10 @@ struct FurtherStarts {
   double found = 0;          ///< value of the optimum that the mode has found, over the points looked at
   double best = 0;           ///< least value of all
   Pose best_pose;
-  std::uint32_t same = 0;  ///< starts that came to the optimum that the mode has found
-  Pose own_pose;           ///< that optimum, to go back to
-  double own_value = 0;    ///< its value over all points; infinite where there is none
+  std::uint32_t same = 0;         ///< starts that came to the best optimum
+  std::uint32_t same_as_own = 0;  ///< starts that came to the one that the mode has found
+  Pose own_pose;                  ///< that optimum, to go back to
+  double own_value = 0;           ///< its value over all points; infinite where there is none
 };
 
 }  // namespace bladefit
