@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "config/map_table.hpp"
 #include "config/table_reader.hpp"
@@ -32,7 +31,7 @@ void read_tcp(TableReader table, TcpSettings& tcp) {
 }
 
 void read_line(TableReader table, SerialLineSettings& line) {
-  table.read("device", line.device);
+  table.read_path("device", line.device);
   table.read_whole("baud", line.baud, {1200, 4000000});
   table.read_whole("data_bits", line.data_bits, {7, 8});
   table.read_choice<Parity>("parity", line.parity,
@@ -92,11 +91,8 @@ void read_dro(TableReader table, DroSettings& dro) {
   table.finish();
 }
 
-void read_replay(TableReader table, const std::string& path, ReplaySettings& replay) {
-  if (table.has("file")) {
-    table.read("file", replay.file);
-    replay.file = std::filesystem::path(path).parent_path() / replay.file;
-  }
+void read_replay(TableReader table, ReplaySettings& replay) {
+  table.read_path("file", replay.file);
   read_units(table, replay.mm_per_unit);
   table.finish();
 }
@@ -128,7 +124,7 @@ void read_tables(TableReader& root, TomlDocument& document, SourceSettings& sett
       if (auto table = root.table("dro")) read_dro(*table, settings.dro);
       return;
     case SourceKind::replay:
-      if (auto table = root.table("replay")) read_replay(*table, document.name, settings.replay);
+      if (auto table = root.table("replay")) read_replay(*table, settings.replay);
       return;
   }
 }
@@ -139,6 +135,7 @@ ConfigError load_device(const std::string& path, SourceSettings& settings) {
   TomlDocument document = read_toml(path);
   if (document.error) return document.error;
   SourceSettings read;
+  read.replay.mm_per_unit = settings.replay.mm_per_unit;
   TableReader root(document, document.root, "");
   root.read_choice<SourceKind>("kind", read.kind,
                                {{"modbus-tcp", SourceKind::modbus_tcp},

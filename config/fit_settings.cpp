@@ -11,7 +11,6 @@
 namespace bladefit {
 namespace {
 
-constexpr double kLargest = 1e9;     ///< lengths and ratios
 constexpr double kSmallest = 1e-12;  ///< of what must be above 0
 
 /// Cuts the text up to the next colon off `rest`.
@@ -130,20 +129,20 @@ void read_fit_table(TableReader& table, FitSettings& settings) {
   constexpr std::array<std::string_view, 3> kLosses = {"none", "huber", "tukey"};
   read_name(table, "mode", settings.mode, kModes);
   read_boxes(table, settings);
-  table.read("tolerance", settings.tolerance, NumberRange{kSmallest, kLargest});
-  table.read("rest_tolerance", settings.rest_tolerance, NumberRange{kSmallest, kLargest});
-  table.read("ratio", settings.ratio, NumberRange{1, kLargest});
+  table.read("tolerance", settings.tolerance, NumberRange{kSmallest, kLargestSetting});
+  table.read("rest_tolerance", settings.rest_tolerance, NumberRange{kSmallest, kLargestSetting});
+  table.read("ratio", settings.ratio, NumberRange{1, kLargestSetting});
   table.read("transition", settings.transition, NumberRange{0, 1});
   read_window(table, settings);
   read_name(table, "outward", settings.outward, kOutward);
-  table.read("probe_radius", settings.probe_radius, NumberRange{0, kLargest});
+  table.read("probe_radius", settings.probe_radius, NumberRange{0, kLargestSetting});
   read_name(table, "units", settings.units, kUnits);
   read_name(table, "regions", settings.regions, kRegions);
   read_name(table, "edges", settings.edges, kEdges);
   read_lock(table, settings);
   read_name(table, "loss", settings.loss, kLosses);
-  table.read("loss_scale", settings.loss_scale, NumberRange{kSmallest, kLargest});
-  table.read("start", settings.start);
+  table.read("loss_scale", settings.loss_scale, NumberRange{kSmallest, kLargestSetting});
+  table.read_path("start", settings.start);
   table.read("ignore_approach", settings.ignore_approach);
   table.finish();
 }

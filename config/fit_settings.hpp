@@ -16,6 +16,9 @@ struct ParameterWindow {
   double low = 0, high = 1;
 };
 
+/// Of lengths and ratios.
+inline constexpr double kLargestSetting = 1e9;
+
 /// The fit as a file or the command line gives it. What is not set is left to the caller, so that flags win over files.
 /// Lengths are in `units`, by default those of the design file.
 struct FitSettings {
@@ -38,7 +41,8 @@ struct FitSettings {
   std::optional<bool> ignore_approach;
 };
 
-/// Reads the table [fit] of a TOML file such as config/fit.toml into `settings`.
+/// Reads the table [fit] of a TOML file such as config/fit.toml into `settings`. Relative paths are those of the file's
+/// folder, made ready to be used from the working directory.
 /// Errors: unreadable file, TOML syntax, unknown key, wrong type, out of range; then `settings` is as before.
 [[nodiscard]] ConfigError load_fit(const std::string& path, FitSettings& settings);
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include "config/fit_table.hpp"
 #include "config/table_reader.hpp"
@@ -17,28 +16,17 @@ namespace {
 
 constexpr double kMostPoints = 16777216;
 constexpr double kLongestIdle = 1e6;  ///< [s]
-constexpr std::string_view kReplay = "replay:";
 
-/// A path of the file as one that can be used from the working directory.
-std::string resolved(const std::string& path, const std::string& file) {
-  return std::filesystem::path(file).parent_path() / path;
-}
-
-void read_path(TableReader& table, std::string_view key, const std::string& file, std::optional<std::string>& value) {
-  if (!table.has(key)) return;
-  table.read(key, value);
-  if (!table.good()) return;
-  if (value->empty()) return table.fail(key, "is empty; give a path, or leave the key out");
-  value = resolved(*value, file);
-}
-
-void read_source(TableReader& table, const std::string& file, std::optional<std::string>& source) {
+/// A source URI. What stands behind the first colon is a path, but in modbus-tcp://HOST:PORT.
+void read_source(TableReader& table, std::optional<std::string>& source) {
   if (!table.has("source")) return;
   table.read("source", source);
   if (!table.good()) return;
   SourceSettings scratch;
   if (const std::string error = apply_source_uri(*source, scratch); !error.empty()) return table.fail("source", error);
-  if (scratch.kind == SourceKind::replay) source = std::string(kReplay) + resolved(scratch.replay.file, file);
+  if (scratch.kind == SourceKind::modbus_tcp) return;
+  const std::size_t path = source->find(':') + 1;
+  source = source->substr(0, path) + table.from_folder(source->substr(path));
 }
 
 /// Of IPv4 or IPv6.
@@ -70,10 +58,10 @@ ConfigError load_session(const std::string& path, SessionSettings& settings) {
   if (document.error) return document.error;
   SessionSettings read = settings;
   TableReader root(document, document.root, "");
-  read_path(root, "design", path, read.design);
-  read_source(root, path, read.source);
-  read_path(root, "device", path, read.device);
-  read_path(root, "session", path, read.session);
+  root.read_path("design", read.design);
+  read_source(root, read.source);
+  root.read_path("device", read.device);
+  root.read_path("session", read.session);
   root.read("until_idle", read.until_idle, NumberRange{1e-3, kLongestIdle});
   if (root.has("capacity")) {
     std::uint32_t capacity = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 
 #include "drivers/read_file.hpp"
@@ -163,6 +164,23 @@ void TableReader::read(std::string_view key, std::vector<std::string>& value) {
 void TableReader::read(std::string_view key, double& value, NumberRange range) {
   double number = 0;
   if (read_number(key, number, range, false)) value = number;
+}
+
+std::string TableReader::from_folder(const std::string& path) const {
+  return std::filesystem::path(document_->name).parent_path() / path;
+}
+
+void TableReader::read_path(std::string_view key, std::string& path) {
+  std::string text;
+  if (!read_text(key, text)) return;
+  if (text.empty()) return fail(key, "is empty; give a path, or leave the key out");
+  path = from_folder(text);
+}
+
+void TableReader::read_path(std::string_view key, std::optional<std::string>& path) {
+  std::string present;
+  read_path(key, present);
+  if (!present.empty()) path = present;
 }
 
 std::optional<TableReader> TableReader::table(std::string_view key) {

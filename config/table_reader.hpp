@@ -64,6 +64,13 @@ class TableReader {
     fail(key, "'" + text + "' is none of: " + names);
   }
 
+  /// A path, not empty; a relative one is taken from the folder of the file.
+  void read_path(std::string_view key, std::string& path);
+  void read_path(std::string_view key, std::optional<std::string>& path);
+
+  /// A path of the file as one that can be used from the working directory.
+  [[nodiscard]] std::string from_folder(const std::string& path) const;
+
   /// A duration given as a number of milliseconds.
   template <typename Duration>
   void read_ms(std::string_view key, Duration& value, NumberRange range) {

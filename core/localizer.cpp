@@ -10,12 +10,8 @@ namespace bladefit {
 namespace {
 
 constexpr std::size_t kAlignment = 64;
-/// A pose does not move further than this in one push [half diagonals]: what lies beyond is no small motion.
-constexpr double kLongestStep = 0.05;
 /// Points farther from the middle of the design than this [half diagonals] are not of this blade.
 constexpr double kFarthest = 1e3;
-/// Start poses are assumed right to within this [half diagonals] when a direction is not determined yet.
-constexpr double kStartUncertainty = 0.01;
 /// A distance above its tolerance by no more than this [half diagonals] is in: a constrained optimum touches its
 /// bounds.
 constexpr double kTouching = 1e-11;
@@ -31,10 +27,11 @@ constexpr std::uint32_t kCatchUp = 8;
 constexpr double kSearchMargin = 2e-3;
 /// A point may be drawn over an edge where it counts, and back where it does not. Left out so often, it stays out.
 constexpr std::uint8_t kMostExits = 4;
-/// Directions below this share of the largest eigenvalue are rounding.
-constexpr double kNumericalRank = 1e-13;
 
-constexpr std::size_t rounded_up(std::size_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
+/// Where addresses have 32 bits, a large capacity needs more than that.
+constexpr std::uint64_t kMoreThanThereIs = std::numeric_limits<std::size_t>::max() - 4096;
+
+constexpr std::uint64_t rounded_up(std::uint64_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
 
 Vec3 to_vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
@@ -72,9 +69,12 @@ bool config_valid(const LocalizerConfig& c, std::size_t patches) {
 }  // namespace
 
 std::size_t Localizer::memory_required(const LocalizerConfig& config) {
-  const std::size_t rows = config.mode == FitMode::least_squares ? 0 : BoundedFit::kDoublesPerPoint;
-  return rounded_up(sizeof(Localizer)) + rounded_up(sizeof(StoredPoint) * config.capacity) +
-         2 * rounded_up(sizeof(std::uint32_t) * config.capacity) + rounded_up(sizeof(double) * rows * config.capacity);
+  const std::uint64_t rows = config.mode == FitMode::least_squares ? 0 : BoundedFit::kDoublesPerPoint;
+  const std::uint64_t points = config.capacity;
+  const std::uint64_t size = rounded_up(sizeof(Localizer)) + rounded_up(sizeof(StoredPoint) * points) +
+                             2 * rounded_up(sizeof(std::uint32_t) * points) +
+                             rounded_up(sizeof(double) * rows * points);
+  return static_cast<std::size_t>(std::min<std::uint64_t>(size, kMoreThanThereIs));
 }
 
 Localizer::Localizer(const DesignImage& design, const LocalizerConfig& config) : surface_(design), config_(config) {
@@ -159,8 +159,9 @@ Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& 
   if (doubtful || far || search == Search::always) {
     if (search == Search::past_lead) query.margin = kSearchMargin * frame_.length;
     const GlobalProjection global = project_global(surface_, query, &m.projection);
-    const Vec3 jump = global.nearest.at.s - m.projection.at.s;
-    m.changed = !m.projection.converged || jump.norm() > 1e-8 * frame_.length;
+    // Newton's method does not end on a crease of the surface: there it is the foot of before that is found again.
+    const Vec3& before = m.projection.converged ? m.projection.at.s : point.foot.point;
+    m.changed = (global.nearest.at.s - before).norm() > 1e-8 * frame_.length;
     m.projection = global.nearest;
     m.searched = true;
     m.lead = global.lead;
@@ -198,7 +199,12 @@ bool Localizer::left_out(const StoredPoint& point, const Foot& foot) const {
 
 Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   if (const Status status = check(point); status != Status::ok) return status;
+  redetermine_ = redetermine_ || concluded_;
   refinement_.active = concluded_ = converged_ = regions_held_ = exits_count_ = infeasible_ = false;
+  if (refinement_.further.active) {
+    refinement_.further.active = false;
+    begin_sweep();  // that of a start has filled no sums
+  }
   StoredPoint passing = made_from(point, last_place_);
   const Measurement measurement = measure(passing, pose_, Search::past_lead);
   StoredPoint* place = store(passing, measurement);
@@ -223,39 +229,9 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
 }
 
 void Localizer::conclude() {
-  concluded_ = true;
-  redetermine_ = true;
-}
-
-double Localizer::threshold() const {
-  const double numerical = kNumericalRank * current_.model.gauss.trace();
-  if (concluded_) return numerical;
-  const double ratio = sigma_ / config_.determined_mm;
-  return std::max(numerical, ratio * ratio);
-}
-
-double Localizer::solve() {
-  const QuadraticModel& model = current_.model;
-  const Vec6 x = motion_between(model.reference, pose_, frame_);
-  if (redetermine_ || determination_.rank < 6 || config_.locked != 0) {
-    determination_ = determine(model, threshold(), free_motions(pose_, config_.locked, frame_));
-  }
-  redetermine_ = false;
-  Vec6 target = minimum_of(model, determination_, x);
-  const double length = (target - x).norm();
-  if (length > kLongestStep * frame_.length) target = x + (kLongestStep * frame_.length / length) * (target - x);
-  if (!tracker_.active()) {
-    pose_ = held(moved(model.reference, target, frame_), config_.start, config_.locked);
-    ++revision_;
-  }
-  const auto freedom =
-      static_cast<double>(model.count) - static_cast<double>(determination_.rank - determination_.locked);
-  const double variance = freedom > 0.0 ? 2.0 * model.value_at(target) / freedom : 0.0;
-  sigma_ = std::max(config_.noise_floor_mm, loss_ != Loss::none ? loss_scale_ : std::sqrt(variance));
-  const double start = kStartUncertainty * frame_.length;
-  covariance_ = unit_covariance(model, determination_, sigma_ * sigma_ / (start * start));
-  last_step_ = (target - x).norm();
-  return last_step_;
+  concluded_ = redetermine_ = true;
+  const bool sought_on = config_.mode != FitMode::least_squares && config_.further_starts > 0;
+  if (sought_on && !refinement_.further.done) converged_ = false;
 }
 
 void Localizer::count_verdict(const StoredPoint& point, int sign) {
@@ -274,7 +250,7 @@ void Localizer::judge(StoredPoint& point) {
   Vec6 gradient;
   gradient.head<3>() = (apply(pose_, point.position) - frame_.pivot).cross(foot.normal) / frame_.length;
   gradient.tail<3>() = foot.normal;
-  point.uncertainty = sigma_ * std::sqrt(gradient.dot(covariance_ * gradient));
+  point.uncertainty = sigma_ * std::sqrt(std::max(0.0, gradient.dot(covariance_ * gradient)));
 
   const double free =
       (determination_.free_directions.transpose() * gradient).norm() * kStartUncertainty * frame_.length;

@@ -82,8 +82,8 @@ struct FitReport {
   double gradient = 0;             ///< size of the last Newton step [mm at the design's half diagonal]: the self check
   RegionReport leading_edge, rest;
   /// Optimum of the mode: minimax max |d|, range max d - min d, min_tolerance the smallest leading-edge tolerance;
-  /// where constrained is infeasible, the smallest leading-edge tolerance that is not, the ratio kept [mm]. 0 until
-  /// known.
+  /// where constrained is infeasible, the smallest leading-edge tolerance that is not, the ratio kept, or where there
+  /// is none the smallest tolerance of the rest [mm]. 0 until known.
   double tolerance_factor_mm = 0;
   /// Smallest leading-edge tolerance that some pose meets, the ratio kept, from min_tolerance and constrained; 0 until
   /// known [mm].
@@ -153,6 +153,8 @@ class Localizer {
   Localizer(const DesignImage& design, const LocalizerConfig& config);
 
   static constexpr std::uint32_t kFreshPlaces = 16;
+  /// Start poses are assumed right to within this [half diagonals] when a direction is not determined yet.
+  static constexpr double kStartUncertainty = 0.01;
   struct Measurement {
     Projection projection;
     Foot foot;
@@ -248,7 +250,7 @@ class Localizer {
   [[nodiscard]] FitMode sought_mode() const;
   [[nodiscard]] double assign_regions();
   void include_row(std::uint32_t index, const Measurement& measurement);
-  [[nodiscard]] double threshold() const;
+  void find_determined(const Vec6& x);
   [[nodiscard]] Verdict verdict_from(const StoredPoint& point) const;
   void queue_revision(std::uint32_t index);
 

@@ -25,7 +25,8 @@ double Localizer::assign_regions() {
     const Foot& foot = point.foot;
     const double weight = bound_weight(foot);
     // A foot on the border of a region may be drawn over it by one bound and back by the other: it keeps the tighter.
-    if (refinement_.rounds >= kFreeRounds && weight > bounded_.weight(i)) continue;
+    const double kept = bounded_.weight(i);
+    if (refinement_.rounds >= kFreeRounds && kept > 0.0 && (weight == 0.0 || weight > kept)) continue;
     count_verdict(point, -1);
     point.region = region_at(config_.tolerance, foot.patch, foot.u, foot.v);
     point.tolerance = tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
@@ -63,7 +64,7 @@ void Localizer::begin_bounded(FitMode mode) {
 }
 
 void Localizer::include_row(std::uint32_t index, const Measurement& m) {
-  if (left_out(points_[index], m.foot)) {
+  if (left_out(points_[index], m.foot) || bounded_.weight(index) == 0.0) {
     bounded_.skip_row(index);
   } else {
     bounded_.set_row(index, distance_row(m.projection, m.foot, m.r, Vec6::Zero(), frame_));

@@ -116,6 +116,7 @@ bool Localizer::end_further_starts(Status& status) {
     begin_sweep();
     return false;
   }
+  begin_sweep();  // the sweeps of starts have filled no sums
   converged_ = f.own_value < kInfinity && unproven_ == 0;
   infeasible_ = converged_ && config_.mode == FitMode::constrained;
   status = converged_ ? Status::ok : Status::iteration_cap;

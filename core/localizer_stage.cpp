@@ -33,6 +33,7 @@ void Localizer::stage(const StoredPoint& passing, Search search) {
   stop_trackers();
   redetermine_ = true;
   settle_all();
+  if (cursor_ > 0) begin_sweep();  // points that were to become active at its end are in no sums of it
   const Measurement measurement = measure(passing, pose_, search);
   count_in(passing, measurement);
   order_[stored_] = stored_;

@@ -21,9 +21,12 @@ constexpr double kStill = 1e-7;
 }  // namespace
 
 /// w of a foot: its tolerance [mm] in a constrained fit, 1 at the leading edge and the ratio elsewhere in
-/// min_tolerance.
+/// min_tolerance. 0: its distance has no bound.
 double Localizer::bound_weight(const Foot& foot) const {
-  if (config_.mode == FitMode::constrained) return tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
+  if (config_.mode == FitMode::constrained) {
+    const double tolerance = tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
+    return std::isfinite(tolerance) ? tolerance : 0.0;
+  }
   ToleranceMap weights = config_.tolerance;
   weights.leading_edge_mm = 1.0;
   weights.rest_mm = config_.ratio;
@@ -33,8 +36,8 @@ double Localizer::bound_weight(const Foot& foot) const {
 /// What a value of the programs is a multiple of [mm].
 double Localizer::bound_unit() const {
   if (config_.mode != FitMode::constrained) return 1.0;
-  const bool one_level = config_.tolerance.box_count == 0 || !std::isfinite(config_.tolerance.leading_edge_mm);
-  return one_level ? config_.tolerance.rest_mm : config_.tolerance.leading_edge_mm;
+  const ToleranceMap& tolerance = config_.tolerance;
+  return std::isfinite(tolerance.leading_edge_mm) ? tolerance.leading_edge_mm : tolerance.rest_mm;
 }
 
 void Localizer::stop_trackers() {
@@ -66,8 +69,9 @@ void Localizer::begin_trackers(std::uint32_t stride) {
   const double middle = middle_distance(stride);
   for (std::uint32_t i = 0; i < stored_; i += stride) {
     const Foot& foot = points_[i].foot;
-    if (left_out(points_[i], foot)) continue;
-    const double size = std::abs(foot.distance - middle) / (plain ? 1.0 : bound_weight(foot));
+    const double weight = plain ? 1.0 : bound_weight(foot);
+    if (left_out(points_[i], foot) || weight == 0.0) continue;
+    const double size = std::abs(foot.distance - middle) / weight;
     if (count == BoundTracker::kPlaces && size <= ratio[count - 1]) continue;
     std::uint32_t place = count < BoundTracker::kPlaces ? count++ : count - 1;
     for (; place > 0 && ratio[place - 1] < size; --place) {
@@ -87,11 +91,12 @@ void Localizer::begin_trackers(std::uint32_t stride) {
 void Localizer::look_at(std::uint32_t index, const Measurement& m) {
   if (!tracker_.active() || left_out(points_[index], m.foot)) return;
   const double weight = bound_weight(m.foot);
-  bool violated = tracker_.violated(m.foot.distance, weight) && !tracker_.holds(index);
+  bool violated = weight > 0.0 && tracker_.violated(m.foot.distance, weight) && !tracker_.holds(index);
   if (violated) tracker_.hold(index);
   if (least_.active() && !least_.holds(index)) {
     const Foot foot = measure(points_[index], least_.pose(), Search::past_lead).foot;
-    if (least_.violated(foot.distance, bound_weight(foot))) {
+    const double bound = bound_weight(foot);
+    if (bound > 0.0 && least_.violated(foot.distance, bound)) {
       least_.hold(index);
       violated = true;
     }
@@ -108,11 +113,12 @@ bool Localizer::follow(BoundTracker& tracker) {
     for (std::uint32_t place = 0; place < tracker.count(); ++place) {
       const StoredPoint& point = points_[tracker.point(place)];
       const Measurement m = measure(point, pose, Search::past_lead);
-      if (left_out(point, m.foot)) {
+      const double weight = bound_weight(m.foot);
+      if (left_out(point, m.foot) || weight == 0.0) {
         tracker.skip_row(place);
       } else {
         const DistanceRow row = distance_row(m.projection, m.foot, m.r, Vec6::Zero(), frame_);
-        tracker.set_row(place, row, bound_weight(m.foot), basis);
+        tracker.set_row(place, row, weight, basis);
       }
     }
     if (!tracker.step(shifted(current_.model, pose, frame_), frame_, config_.start, config_.locked)) return false;

@@ -47,9 +47,8 @@ std::string_view as_text(const std::vector<std::byte>& bytes) {
 
 /// An output must overwrite neither the design nor another output.
 void check_outputs(const CompileOptions& options) {
-  if (same_file(options.design, options.output) || same_file(options.design, options.c_array)) {
-    throw DesignError(fmt::format("{}: the output would overwrite the design; give another name", options.design));
-  }
+  refuse_overwriting(options.output, "design", options.design);
+  refuse_overwriting(options.c_array, "design", options.design);
   if (same_file(options.output, options.c_array)) {
     throw DesignError(fmt::format("{}: is both -o and --c-array; give two names", options.output));
   }

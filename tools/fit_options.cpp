@@ -25,8 +25,10 @@ void take(const ConfigError& error) {
 }
 
 double positive(double value, const char* option) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw DesignError(fmt::format("{}: {} is not a positive length; give one above 0", option, value));
+  if (!(value > 0.0 && value <= kLargestSetting)) {
+    throw DesignError(
+        fmt::format("{}: {} is not a positive length; give one above 0, up to {}", option, value, kLargestSetting));
+  }
   return value;
 }
 
@@ -50,8 +52,10 @@ void plan_boxes(const FitSettings& settings, const DesignImage& design, Toleranc
 void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
   ToleranceMap& map = plan.localizer.tolerance;
   const double ratio = settings.ratio.value_or(10.0);
-  if (!(ratio >= 1.0)) {
-    throw DesignError(fmt::format("--ratio: {} is below 1; the rest has the wider tolerance", ratio));
+  if (!(ratio >= 1.0 && ratio <= kLargestSetting)) {
+    throw DesignError(
+        fmt::format("--ratio: {} is no ratio; give a number from 1 to {}, since the rest has the wider tolerance",
+                    ratio, kLargestSetting));
   }
   if (settings.tolerance) {
     map.leading_edge_mm = positive(*settings.tolerance, "--tolerance") * plan.mm_per_unit;
@@ -238,8 +242,10 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   plan_loss(settings, plan);
   if (settings.start) plan_start(*settings.start, plan);
   const double radius = settings.probe_radius.value_or(0.0);
-  if (!(radius >= 0.0) || !std::isfinite(radius))
-    throw DesignError(fmt::format("--probe-radius: {} is not a radius; give 0 or more", radius));
+  if (!(radius >= 0.0 && radius <= kLargestSetting)) {
+    throw DesignError(
+        fmt::format("--probe-radius: {} is not a radius; give 0 or more, up to {}", radius, kLargestSetting));
+  }
   plan.localizer.probe_radius_mm = radius * plan.mm_per_unit;
   plan.localizer.use_approach = !settings.ignore_approach.value_or(false);
   if (settings.window) {

@@ -21,6 +21,31 @@ std::vector<Verdict> verdicts_of(const Localizer& localizer, const std::vector<P
   return verdicts;
 }
 
+bool is_identity(const Pose& pose) {
+  return pose.rotation == Mat3(Mat3::Identity()) && pose.translation == Vec3(Vec3::Zero());
+}
+
+std::vector<double> distances_of(const std::vector<Verdict>& verdicts) {
+  std::vector<double> distances;
+  for (const Verdict& v : verdicts) distances.push_back(v.foot.distance);
+  return distances;
+}
+
+/// Oriented distances of the points as measured, at C = I, t = 0 [mm], by searches.
+std::vector<double> distances_as_measured(const DesignImage& design, const LocalizerConfig& config,
+                                          const std::vector<ProbePoint>& points) {
+  const Surface surface(design);
+  std::vector<double> distances;
+  for (const ProbePoint& point : points) {
+    ProjectionQuery query;
+    query.point = Vec3(point.position.data());
+    if (config.use_approach) query.approach = Vec3(point.approach.data());
+    const Projection nearest = project_global(surface, query, nullptr).nearest;
+    distances.push_back(foot_of(surface, nearest, config.probe_radius_mm).distance);
+  }
+  return distances;
+}
+
 /// Points at the start pose, ready to be refined.
 struct StagedPoints {
   OwnedLocalizer localizer;
@@ -93,13 +118,13 @@ class Summing {
   double square_before_ = 0, square_after_ = 0;
 };
 
-void sum_up(FitResult& result, const std::vector<Verdict>& before) {
+void sum_up(FitResult& result, const std::vector<double>& before) {
   Summing all(result.all), leading_edge(result.leading_edge), rest(result.rest);
   for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
     const Verdict& after = result.verdicts[i];
     if (after.state == PointState::rejected) continue;
-    all.add(before[i].foot.distance, after.foot.distance);
-    (after.region == Region::leading_edge ? leading_edge : rest).add(before[i].foot.distance, after.foot.distance);
+    all.add(before[i], after.foot.distance);
+    (after.region == Region::leading_edge ? leading_edge : rest).add(before[i], after.foot.distance);
   }
 }
 
@@ -131,7 +156,8 @@ FitResult fit_points(const DesignImage& design, const FitPlan& plan, const std::
   result.report = fit.localizer->fit();
   result.status = status_of(result.report);
   result.verdicts = verdicts_of(*fit.localizer, points);
-  sum_up(result, fit.verdicts);
+  const bool as_measured = is_identity(plan.localizer.start);
+  sum_up(result, as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points));
   result.aberrant = aberrant_points(result.report, plan.localizer, result.verdicts, points);
   if (result.all.count < 6) {
     throw DesignError(
@@ -148,9 +174,18 @@ FitResult result_of(const DesignImage& design, const FitPlan& plan, const std::v
   result.report = report;
   result.status = status_of(report);
   result.verdicts = std::move(verdicts);
-  sum_up(result, staged(design, plan, points, FootStarts::searched, "the session").verdicts);
+  sum_up(result, distances_as_measured(design, plan.localizer, points));
   result.aberrant = aberrant_points(report, plan.localizer, result.verdicts, points);
   return result;
+}
+
+bool one_tolerance(const ToleranceMap& tolerance) {
+  return tolerance.box_count == 0 || !std::isfinite(tolerance.leading_edge_mm);
+}
+
+double least_widening(const FitReport& report, const ToleranceMap& tolerance) {
+  const bool leading_edge = std::isfinite(tolerance.leading_edge_mm);
+  return report.tolerance_factor_mm / (leading_edge ? tolerance.leading_edge_mm : tolerance.rest_mm);
 }
 
 int exit_code_of(const FitResult& result) {

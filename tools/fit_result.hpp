@@ -8,7 +8,8 @@
 
 namespace bladefit {
 
-/// Distances before and after the fit over the points of one kind that count in it [mm].
+/// Distances before the fit, at C = I, t = 0 whatever the start pose, and after it over the points of one kind that
+/// count in it [mm].
 struct BeforeAfter {
   std::uint32_t count = 0;
   double rms_before = 0, rms_after = 0, max_before = 0, max_after = 0;
@@ -42,6 +43,12 @@ struct FitResult {
 /// The result of a fit that was made elsewhere: only the distances before it are computed here.
 [[nodiscard]] FitResult result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
                                   const FitReport& report, std::vector<Verdict> verdicts);
+
+/// Whether one tolerance holds for the whole blade: there is no leading edge, or it has no tolerance.
+[[nodiscard]] bool one_tolerance(const ToleranceMap& tolerance);
+
+/// Of an infeasible constrained fit: the number by which its tolerances must be multiplied at least to be met.
+[[nodiscard]] double least_widening(const FitReport& report, const ToleranceMap& tolerance);
 
 /// result.json: UTF-8 text with a final newline, lengths in plan.units. Numbers are written so that they read back as
 /// the same bits.

@@ -24,7 +24,7 @@ struct LocalizeFlags {
 
 /// Row numbers, counted from 0, one a line; every one below `rows`, none twice. Returned sorted.
 std::vector<std::size_t> read_subset(const std::string& path, std::size_t rows) {
-  const std::string text = read_text(path);
+  const std::string text = read_text(path, "subset");
   std::vector<std::size_t> indices;
   std::size_t line = 0;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -69,12 +69,23 @@ std::vector<ProbePoint> read_points(const LocalizeFlags& flags, double mm_per_un
   return file.points;
 }
 
+/// The result must not take the place of anything it is made from.
+void check_result_file(const LocalizeFlags& flags, const FitSettings& settings) {
+  if (flags.json == "-") return;
+  refuse_overwriting(flags.json, "design", flags.design);
+  refuse_overwriting(flags.json, "points", flags.points);
+  refuse_overwriting(flags.json, "subset", flags.subset);
+  refuse_overwriting(flags.json, "settings", flags.config);
+  refuse_overwriting(flags.json, "start pairs", settings.start.value_or(""));
+}
+
 int localize(const LocalizeFlags& flags) {
   FitSettings from_file;
   if (!flags.config.empty()) {
     if (const ConfigError error = load_fit(flags.config, from_file)) throw DesignError(error.message);
   }
   const FitSettings settings = merged(flags.fit, from_file);
+  check_result_file(flags, settings);
   const LoadedDesign loaded = load_design(flags.design, outward_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)

@@ -50,9 +50,7 @@ void print_deviation(const BladeSections& sections, const LoftDeviation& deviati
 }
 
 void run_loft(const LoftFlags& flags) {
-  if (same_file(flags.sections, flags.output)) {
-    throw DesignError(fmt::format("{}: the output would overwrite the sections; give another name", flags.sections));
-  }
+  refuse_overwriting(flags.output, "sections", flags.sections);
   const DesignUnit unit = flags.units == "in" ? DesignUnit::inch : DesignUnit::mm;
   const BladeSections sections = read_sections_csv(flags.sections);
   const NurbsSurface surface = loft(sections, flags.settings, mm_per_unit(unit));

@@ -100,6 +100,22 @@ std::string other_starts(const FitReport& report) {
                      report.further_starts);
 }
 
+/// Why no pose meets the tolerances, and how much wider they must be.
+std::string infeasible_lines(const FitResult& result, const FitPlan& plan) {
+  const ToleranceMap& tolerance = plan.localizer.tolerance;
+  const bool one = one_tolerance(tolerance);
+  const double wanted = one ? tolerance.rest_mm : tolerance.leading_edge_mm;
+  const double least = least_widening(result.report, tolerance) * wanted;
+  const auto length = [&](double mm) { return fmt::format("{:.6g} {}", mm / plan.mm_per_unit, plan.units); };
+  return fmt::format(
+      "Infeasible: {} cannot be brought within {} together; the least feasible {} tolerance is {}.\n"
+      "Measure these points again, or widen the {}\n",
+      point_list(result.report.certificate), length(wanted), one ? "rest" : "leading-edge", length(least),
+      one ? fmt::format("rest tolerance by {}", length(least - wanted))
+          : fmt::format("leading-edge tolerance by {} and the rest tolerance in the same ratio",
+                        length(least - wanted)));
+}
+
 /// What the mode found, in words; empty in least squares.
 std::string optimum_line(const FitResult& result, const FitPlan& plan) {
   const FitReport& report = result.report;
@@ -118,11 +134,7 @@ std::string optimum_line(const FitResult& result, const FitPlan& plan) {
                          length(plan.localizer.ratio * factor), other_starts(report)) +
              proof;
     case FitMode::constrained:
-      return fmt::format(
-          "Infeasible: {} cannot be brought within {} together; the least feasible leading-edge tolerance is {}.\n"
-          "Measure these points again, or widen the tolerance by {}\n",
-          point_list(report.certificate), length(plan.localizer.tolerance.leading_edge_mm), length(factor),
-          length(factor - plan.localizer.tolerance.leading_edge_mm));
+      return infeasible_lines(result, plan);
     case FitMode::least_squares:
       break;
   }

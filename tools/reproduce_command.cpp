@@ -89,6 +89,16 @@ std::filesystem::path data_folder(const ReproduceFlags& flags) {
   return folder;
 }
 
+/// The figures must not take the place of a file of the data.
+void check_figures(const ReproduceFlags& flags, const std::filesystem::path& folder) {
+  if (flags.json.empty() || flags.json == "-") return;
+  std::error_code none;
+  for (const ThesisStudy& study : thesis_studies()) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / study.data, none))
+      refuse_overwriting(flags.json, "data", entry.path());
+  }
+}
+
 std::vector<ReportTable> tables_of(const ThesisStudy& study, const StudyCase& data, const std::set<int>& wanted,
                                    ProgressLine& progress) {
   const auto any = [&wanted](std::initializer_list<int> numbers) {
@@ -121,6 +131,7 @@ bool has_any(const ThesisStudy& study, const std::set<int>& wanted) {
 std::vector<ReportTable> all_tables(const ReproduceFlags& flags) {
   const std::set<int> wanted = wanted_tables(flags);
   const std::filesystem::path folder = data_folder(flags);
+  check_figures(flags, folder);
   ProgressLine progress;
   std::vector<ReportTable> tables;
   ReportTable checks = check_table(), costs = start_cost_table();

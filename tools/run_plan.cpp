@@ -3,11 +3,16 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
+#include <utility>
 
 #include "config/device_settings.hpp"
 #include "drivers/source_uri.hpp"
+#include "tools/design/output_file.hpp"
+#include "tools/report/session_report.hpp"
 
 namespace bladefit {
 namespace {
@@ -34,8 +39,10 @@ SessionSettings merged_session(const RunFlags& flags) {
   return session;
 }
 
-SourceSettings plan_source(const SessionSettings& session, double mm_per_unit) {
+/// `flag` is that of --units, which wins over the units that a device file gives for its recording.
+SourceSettings plan_source(const SessionSettings& session, const std::optional<std::string>& flag, double mm_per_unit) {
   SourceSettings source;
+  source.replay.mm_per_unit = mm_per_unit;
   if (session.device) {
     if (const ConfigError error = load_device(*session.device, source)) throw DesignError(error.message);
   }
@@ -47,7 +54,7 @@ SourceSettings plan_source(const SessionSettings& session, double mm_per_unit) {
         "no source is given; name one with --source, for example modbus-tcp://192.168.0.10:502, or in the "
         "session file");
   }
-  source.replay.mm_per_unit = mm_per_unit;
+  if (flag) source.replay.mm_per_unit = mm_per_unit;
   return source;
 }
 
@@ -74,6 +81,24 @@ std::chrono::milliseconds idle_of(const SessionSettings& session) {
   return std::chrono::milliseconds(std::llround(seconds * kMillisecondsPerSecond));
 }
 
+/// Nothing that is written may take the place of what is read, nor the copy of the result that of a file of the
+/// session. In the place of the session's own result.json it does no harm.
+void check_outputs(const RunFlags& flags, const SessionSettings& session, const RunPlan& plan) {
+  const std::filesystem::path folder(plan.host.session_directory);
+  const std::filesystem::path copy(flags.json == "-" ? "" : flags.json);
+  refuse_overwriting(copy, "journal of the session", folder / kJournalFile);
+  refuse_overwriting(copy, "verdicts of the session", folder / kVerdictsFile);
+  const std::array<std::pair<const char*, std::string>, 5> inputs{{{"design", session.design.value_or("")},
+                                                                   {"session file", flags.config},
+                                                                   {"device file", session.device.value_or("")},
+                                                                   {"start pairs", session.fit.start.value_or("")},
+                                                                   {"recording", plan.source.replay.file}}};
+  for (const auto& [what, input] : inputs) {
+    refuse_overwriting(copy, what, input);
+    for (const char* name : {kJournalFile, kVerdictsFile, kResultFile}) refuse_overwriting(folder / name, what, input);
+  }
+}
+
 }  // namespace
 
 RunPlan plan_run(const RunFlags& flags) {
@@ -88,7 +113,7 @@ RunPlan plan_run(const RunFlags& flags) {
   }
   plan.fit = plan_fit(session.fit, plan.image);
   if (session.capacity) plan.fit.localizer.capacity = *session.capacity;
-  plan.source = plan_source(session, plan.fit.mm_per_unit);
+  plan.source = plan_source(session, flags.session.fit.units, plan.fit.mm_per_unit);
   plan.json = flags.json;
   // The screen would mix with the result.
   plan.headless = session.headless.value_or(false) || plan.json == "-";
@@ -98,6 +123,7 @@ RunPlan plan_run(const RunFlags& flags) {
   plan.host.idle = idle_of(session);
   const bool recording = plan.source.kind == SourceKind::replay;
   plan.host.end_when_finished = recording || plan.headless || session.until_idle.has_value();
+  check_outputs(flags, session, plan);
   return plan;
 }
 

@@ -142,9 +142,7 @@ std::string points_text(const std::vector<ProbePoint>& points, bool directions, 
 }
 
 void run_sample(const SampleFlags& flags) {
-  if (same_file(flags.design, flags.output)) {
-    throw DesignError(fmt::format("{}: would be overwritten; give another name", flags.design));
-  }
+  refuse_overwriting(flags.output, "design", flags.design);
   // The side of the material plays a part only where something stands off the surface or looks at it.
   const OutwardOption asked = parse_outward(flags.outward);
   const bool either = asked == OutwardOption::automatic && flags.offset == 0 && !flags.plan.directions;

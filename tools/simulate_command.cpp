@@ -7,6 +7,7 @@
 
 #include "core/geometry/design_image.hpp"
 #include "tools/design/design_file.hpp"
+#include "tools/design/output_file.hpp"
 #include "tools/simulate/simulator.hpp"
 
 namespace bladefit {
@@ -86,6 +87,8 @@ double mm_per_unit_of(const SimulateFlags& flags) {
 }
 
 int serve_points(SimulateFlags& flags) {
+  refuse_overwriting(flags.settings.stamps, "points", flags.settings.points);
+  refuse_overwriting(flags.settings.stamps, "design", flags.design);
   flags.settings.mm_per_unit = mm_per_unit_of(flags);
   flags.settings.transport = transport_of(flags.transport);
   return run_simulator(flags.settings);

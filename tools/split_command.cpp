@@ -135,11 +135,9 @@ void check_flags(const SplitFlags& flags) {
   if (flags.points.empty() != flags.subset.empty()) {
     throw DesignError("--points and --subset belong together: rows of the one are written to the other");
   }
-  for (const std::string& input : {flags.design, flags.points}) {
-    for (const std::string& output : {flags.output, flags.subset}) {
-      if (same_file(input, output))
-        throw DesignError(fmt::format("{}: would be overwritten; give another name", input));
-    }
+  for (const std::string& output : {flags.output, flags.subset}) {
+    refuse_overwriting(output, "design", flags.design);
+    refuse_overwriting(output, "points", flags.points);
   }
   if (same_file(flags.output, flags.subset)) {
     throw DesignError(fmt::format("{}: is both -o and --subset; give two names", flags.output));

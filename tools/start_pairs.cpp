@@ -68,7 +68,7 @@ void check_spread(const Points& points, const char* what, const std::string& pat
 }  // namespace
 
 StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
-  const std::vector<Pair> pairs = parse_pairs(read_text(path), path);
+  const std::vector<Pair> pairs = parse_pairs(read_text(path, "start pairs"), path);
   if (pairs.size() < 3)
     throw DesignError(fmt::format("{}: {} pairs, at least 3 are needed; add a line for each pair", path, pairs.size()));
   Points measured(3, pairs.size()), design(3, pairs.size());

@@ -18,7 +18,10 @@ class BoundTracker {
 
   /// Begins at `pose` with no point. `reach` [mm]: no step is longer.
   void begin(FitMode mode, const Pose& pose, double reach);
-  void stop() { active_ = false; }
+  void stop() {
+    active_ = false;
+    count_ = 0;
+  }
   [[nodiscard]] bool active() const { return active_; }
   [[nodiscard]] const Pose& pose() const { return pose_; }
   [[nodiscard]] FitMode mode() const { return fit_.mode(); }

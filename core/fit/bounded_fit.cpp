@@ -45,7 +45,7 @@ void BoundedFit::resume(std::uint32_t count) {
 
 double BoundedFit::set_weight(std::uint32_t i, double weight) {
   double& kept = column(kWeight)[i];
-  const double change = std::abs(kept - weight) / weight;
+  const double change = kept == weight ? 0.0 : std::abs(kept - weight) / std::max(kept, weight);
   kept = weight;
   return change;
 }

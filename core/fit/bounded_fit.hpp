@@ -24,8 +24,8 @@ class BoundedFit {
   void resume(std::uint32_t count);
   [[nodiscard]] FitMode mode() const { return mode_; }
 
-  /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again.
-  /// Returns how much it changed, relative to the new one.
+  /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again; a point of
+  /// weight 0 must be skipped. Returns how much it changed, relative to the larger one.
   double set_weight(std::uint32_t i, double weight);
   [[nodiscard]] double weight(std::uint32_t i) const;
   /// Steps go along the free directions of the basis only. Given before the rows of a pose.

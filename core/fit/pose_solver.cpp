@@ -1,29 +1,62 @@
 #include "core/fit/pose_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/fit/cholesky.hpp"
-#include "core/fit/symmetric_eigen.hpp"
 
 namespace bladefit {
+namespace {
 
-Determination determine(const QuadraticModel& model, double threshold, const MotionBasis& basis) {
-  Determination out;
-  Mat6 information = model.gauss;
-  // Locked directions get an eigenvalue above all others, so that no eigenvector mixes them with free ones.
-  const double above = 4.0 * (model.gauss.trace() + threshold + 1.0);
-  if (basis.free < 6) {
-    out.unlocked = basis.projector();
-    information = out.unlocked * model.gauss * out.unlocked + above * (Mat6::Identity() - out.unlocked);
-    out.locked = static_cast<std::uint32_t>(6 - basis.free);
+/// 99.5 % of a normal variable lie below this many standard deviations.
+constexpr double kNormalQuantile = 2.576;
+
+}  // namespace
+
+MotionSpectrum spectrum_of(const QuadraticModel& model, const MotionBasis& basis) {
+  MotionSpectrum out;
+  if (basis.free == 6) {
+    out.eigen = symmetric_eigen(model.gauss);
+    return out;
   }
-  const SymmetricEigen eigen = symmetric_eigen(information);
+  // Locked directions get an eigenvalue above all others, so that no eigenvector mixes them with free ones.
+  const double above = 4.0 * (model.gauss.trace() + 1.0);
+  out.unlocked = basis.projector();
+  out.locked = static_cast<std::uint32_t>(6 - basis.free);
+  out.eigen = symmetric_eigen(out.unlocked * model.gauss * out.unlocked + above * (Mat6::Identity() - out.unlocked));
+  for (int k = 0; k < 6; ++k) {
+    if (out.eigen.values[k] > 0.5 * above) out.eigen.values[k] = std::numeric_limits<double>::infinity();
+  }
+  return out;
+}
+
+double noise_bound(const QuadraticModel& model, const MotionSpectrum& spectrum, const Vec6& x, double reach) {
+  const double freedom = static_cast<double>(model.count) + static_cast<double>(spectrum.locked) - 6.0;
+  // The lower end of the confidence interval of chi squared, by the cube of a normal variable (Wilson and Hilferty).
+  const double spread = 2.0 / (9.0 * freedom);
+  const double root = freedom >= 1.0 ? 1.0 - spread - kNormalQuantile * std::sqrt(spread) : 0.0;
+  if (root <= 0.0) return std::numeric_limits<double>::infinity();
+  const Vec6 gradient = model.gradient + (model.gauss + model.bend) * x;
+  double left = model.value_at(x);
+  for (int k = 0; k < 6; ++k) {
+    const double eigenvalue = spectrum.eigen.values[k], slope = std::abs(spectrum.eigen.vectors.col(k).dot(gradient));
+    const double step = slope < eigenvalue * reach ? slope / eigenvalue : reach;
+    if (std::isfinite(eigenvalue)) left -= step * (slope - 0.5 * eigenvalue * step);
+  }
+  return 2.0 * std::max(0.0, left) / (freedom * root * root * root);
+}
+
+Determination determine(const QuadraticModel& model, const MotionSpectrum& spectrum, double threshold) {
+  Determination out;
+  out.unlocked = spectrum.unlocked;
+  out.locked = spectrum.locked;
   int free = 0;
   for (int k = 0; k < 6; ++k) {
-    const Vec6 direction = eigen.vectors.col(k);
-    if (basis.free < 6 && eigen.values[k] > 0.5 * above) {
+    const Vec6 direction = spectrum.eigen.vectors.col(k);
+    if (std::isinf(spectrum.eigen.values[k])) {
       ++out.rank;
-    } else if (model.count > 0 && eigen.values[k] >= threshold) {
+    } else if (model.count > 0 && spectrum.eigen.values[k] >= threshold) {
       out.projector += direction * direction.transpose();
       ++out.rank;
     } else {
@@ -31,7 +64,7 @@ Determination determine(const QuadraticModel& model, double threshold, const Mot
     }
   }
   if (out.rank == 6) out.projector = out.unlocked;
-  out.smallest = model.count > 0 ? std::max(0.0, eigen.values[0]) / static_cast<double>(model.count) : 0.0;
+  out.smallest = model.count > 0 ? std::max(0.0, spectrum.eigen.values[0]) / static_cast<double>(model.count) : 0.0;
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/fit/motion_lock.hpp"
+#include "core/fit/symmetric_eigen.hpp"
 
 namespace bladefit {
 
@@ -13,9 +14,23 @@ struct Determination {
   Mat6 free_directions = Mat6::Zero();  ///< its first 6 - rank columns: unit vectors of the others
 };
 
-/// A direction counts as determined when its eigenvalue reaches `threshold`. Locked directions are those beyond the
-/// free ones of `basis`. Cost: one symmetric 6 x 6 eigenproblem.
-[[nodiscard]] Determination determine(const QuadraticModel& model, double threshold, const MotionBasis& basis = {});
+/// Directions of motion by how well the points determine them.
+struct MotionSpectrum {
+  SymmetricEigen eigen;  ///< of the information matrix; infinite values for locked directions
+  Mat6 unlocked = Mat6::Identity();
+  std::uint32_t locked = 0;
+};
+
+/// Locked directions are those beyond the free ones of `basis`. Cost: one symmetric 6 x 6 eigenproblem.
+[[nodiscard]] MotionSpectrum spectrum_of(const QuadraticModel& model, const MotionBasis& basis = {});
+
+/// An upper bound, at 99.5 % confidence, of the variance of a distance of weight 1 [mm^2]: of what no motion from `x`
+/// by at most `reach` [mm] in each direction explains. Infinite while too few points are there to tell.
+[[nodiscard]] double noise_bound(const QuadraticModel& model, const MotionSpectrum& spectrum, const Vec6& x,
+                                 double reach);
+
+/// A direction counts as determined when its eigenvalue reaches `threshold`.
+[[nodiscard]] Determination determine(const QuadraticModel& model, const MotionSpectrum& spectrum, double threshold);
 
 /// Minimum of the model over x, started from x0 and moved in the determined directions only. Newton with the exact
 /// Hessian where it is positive definite there, Gauss-Newton otherwise. Cost: one or two 6 x 6 Cholesky decompositions.

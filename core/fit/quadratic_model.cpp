@@ -82,6 +82,22 @@ void add_rotation_bend(const Vec3& n, const Vec3& arm, double length, Mat6& bend
   }
 }
 
+Mat3 cross_matrix(const Vec3& a) {
+  Mat3 m;
+  m << 0.0, -a[2], a[1], a[2], 0.0, -a[0], -a[1], a[0], 0.0;
+  return m;
+}
+
+/// dx / dy at y = 0 of the motion x followed by a motion y: exp([y]x) exp([w]x) = exp([w + Jl^-1 y]x), s' = exp([y]x) s
+/// + y. The inverse left Jacobian to w^3.
+Mat6 change_of_motion(const Vec6& x, double length) {
+  const Mat3 turn = cross_matrix(x.head<3>() / length);
+  Mat6 change = Mat6::Identity();
+  change.topLeftCorner<3, 3>() += -0.5 * turn + turn * turn / 12.0;
+  change.bottomLeftCorner<3, 3>() = -cross_matrix(x.tail<3>()) / length;
+  return change;
+}
+
 Vec6 unscaled(const Vec6& x, double length) {
   Vec6 step = x;
   step.head<3>() /= length;
@@ -135,8 +151,11 @@ double QuadraticModel::value_at(const Vec6& x) const {
 QuadraticModel shifted(const QuadraticModel& model, const Pose& reference, const MotionFrame& frame) {
   QuadraticModel out = model;
   const Vec6 x = motion_between(model.reference, reference, frame);
+  const Mat6 change = change_of_motion(x, frame.length);
   out.reference = reference;
-  out.gradient += (model.gauss + model.bend) * x;
+  out.gradient = change.transpose() * (model.gradient + (model.gauss + model.bend) * x);
+  out.gauss = change.transpose() * model.gauss * change;
+  out.bend = change.transpose() * model.bend * change;
   out.half_square = model.value_at(x);
   return out;
 }

@@ -46,7 +46,8 @@ struct QuadraticModel {
   [[nodiscard]] double value_at(const Vec6& x) const;
 };
 
-/// The same sums about another reference, `x` away from the old one; of first order in the rotation between them.
+/// The same sums about another reference. Value and gradient are exact, but for the fourth power of the rotation
+/// between them; the Hessian is so where the gradient is 0.
 [[nodiscard]] QuadraticModel shifted(const QuadraticModel& model, const Pose& reference, const MotionFrame& frame);
 
 }  // namespace bladefit

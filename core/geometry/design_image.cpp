@@ -28,6 +28,16 @@ std::span<const T> view(std::span<const std::byte> bytes, std::uint64_t offset, 
 
 bool finite3(const double (&x)[3]) { return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]); }
 
+/// Finite, and not a single point: its half diagonal is the scale of all tolerances.
+bool box_valid(const ImageHeader& h) {
+  double size = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(h.box_min[axis] <= h.box_max[axis])) return false;
+    size += h.box_max[axis] - h.box_min[axis];
+  }
+  return finite3(h.box_min) && finite3(h.box_max) && size > 0.0;
+}
+
 bool breaks_valid(std::span<const double> breaks, std::uint64_t first, std::uint64_t spans) {
   if (first > breaks.size() || spans + 1 > breaks.size() - first) return false;
   const auto b = breaks.subspan(first, spans + 1);
@@ -157,8 +167,7 @@ Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
                       array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size) &&
                       array_fits<double>(h.taylor_offset, h.coefficient_count, h.total_size);
   const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.leaf_count >= 1 && h.node_count >= 1;
-  const bool fields = h.spare == 0 && h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && finite3(h.box_min) &&
-                      finite3(h.box_max);
+  const bool fields = h.spare == 0 && h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && box_valid(h);
   return arrays && counts && fields ? Status::ok : Status::bad_content;
 }
 

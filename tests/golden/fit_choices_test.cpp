@@ -73,6 +73,16 @@ TEST_F(FitChoices, PairsAreWhereTheFitStarts) {
   EXPECT_LT(result["summary"]["rms_after"].get<double>(), 0.06);
 }
 
+/// What is told of the time before the fit is of the points as measured, so the reference solution has the same.
+TEST_F(FitChoices, FiguresBeforeTheFitAreNotThoseAtTheStartPose) {
+  const std::string pairs = written("pairs.csv",
+                                    "x,y,z,design_x,design_y,design_z\n0,0,0,0.3,0.1,0\n100,0,0,100.3,0.1,0\n"
+                                    "0,100,0,0.3,100.1,0\n");
+  expect_truth(
+      case_, case_.subsets.at(1), scratch("design.bfd"),
+      with(fit_options(case_, case_.unit), {"--points", case_.subsets.at(1).points.string(), "--start", pairs}));
+}
+
 TEST_F(FitChoices, AberrantPointsAreNamedAndARobustLossLeavesThemBehind) {
   std::ifstream in(points_);
   std::string text, line;
@@ -102,6 +112,11 @@ TEST_F(FitChoices, AberrantPointsAreNamedAndARobustLossLeavesThemBehind) {
 TEST_F(FitChoices, WrongOnesAreRefused) {
   expect_refusal({"--lock", "tx,qq"}, {"--lock", "'qq'", "tx,ty,tz,rx,ry,rz"});
   expect_refusal({"--lock", "tx,ty,tz,rx,ry,rz"}, {"--lock", "all six"});
+  expect_refusal({"--ratio", "inf", "--tolerance", "1"}, {"--ratio: inf", "give a number from 1 to"});
+  expect_refusal({"--ratio", "nan", "--tolerance", "1"}, {"--ratio: nan", "give a number from 1 to"});
+  expect_refusal({"--tolerance", "1e300"}, {"--tolerance: 1e+300", "give one above 0"});
+  expect_refusal({"--probe-radius", "1e308", "--units", "in"}, {"--probe-radius: 1e+308", "give 0 or more"});
+  expect_refusal({"--subset", scratch("")}, {"is a folder; name the subset file in it"});
   expect_refusal({"--loss", "cauchy"}, {"--loss cauchy", "huber or tukey"});
   expect_refusal({"--loss-scale", "1"}, {"--loss-scale", "add --loss"});
   expect_refusal({"--loss", "huber", "--mode", "minimax"}, {"--loss huber", "least_squares"});

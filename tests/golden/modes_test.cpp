@@ -58,6 +58,7 @@ TEST_P(GoldenModes, AnInfeasibleToleranceIsProvenToBeOne) {
     const Outcome outcome = fit(subset, "constrained", tolerances(0.9 * smallest, 9.0 * smallest));
     EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
     EXPECT_NE(outcome.output.find("cannot be brought within"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("and the rest tolerance in the same ratio"), std::string::npos) << outcome.output;
     const nlohmann::json result = read_json(scratch("result.json"));
     EXPECT_EQ(result["status"], "infeasible");
     EXPECT_NEAR(result["tolerance_factor"].get<double>(), smallest, 1e-8 * smallest);
@@ -97,6 +98,48 @@ TEST_F(GoldenModeOptions, RegionsFollowTheFeet) {
     }
     EXPECT_GT(reached, 1.0 - 1e-8);
   }
+}
+
+/// Without boxes, or without a tolerance in them, one tolerance holds for the whole blade: what is told is compared
+/// with that one, and is the smallest that can be met.
+TEST_F(GoldenModeOptions, OneInfeasibleTolerance) {
+  const ReferenceCase c = read_case("arl_fan");
+  const std::string result = scratch("result.json");
+  const auto constrained = [&](const std::vector<std::string>& more) {
+    return run(with({BLADEFIT_COMMAND, "localize", "--design", c.folder / "design.igs", "--points",
+                     c.folder / "subsets/061.csv", "--mode", "constrained", "--json", result},
+                    more));
+  };
+  const double least = read_json(c.folder / "truth/061.json")["minimax"]["value"];
+  const Outcome both = constrained({"--tolerance", "0.001"});
+  EXPECT_EQ(both.exit_code, 1) << both.output;
+  EXPECT_NE(both.output.find(fmt::format("cannot be brought within 0.01 in together; the least feasible rest tolerance "
+                                         "is {:.6g} in.\nMeasure these points again, or widen the rest tolerance by "
+                                         "{:.6g} in\n",
+                                         least, least - 0.01)),
+            std::string::npos)
+      << both.output;
+  EXPECT_NEAR(read_json(result)["tolerance_factor"].get<double>(), 0.1 * least, 1e-8 * least);
+  EXPECT_EQ(constrained({"--tolerance", fmt::format("{}", 0.1 * least * (1 + 1e-6))}).exit_code, 0);
+
+  const Outcome rest = constrained({"--rest-tolerance", "0.01"});
+  EXPECT_EQ(rest.exit_code, 1) << rest.output;
+  EXPECT_NE(rest.output.find("cannot be brought within 0.01 in together"), std::string::npos) << rest.output;
+  EXPECT_NE(rest.output.find(fmt::format("widen the rest tolerance by {:.6g} in\n", least - 0.01)), std::string::npos)
+      << rest.output;
+  EXPECT_NEAR(read_json(result)["tolerance_factor"].get<double>(), least, 1e-8 * least);
+
+  // A leading edge without a tolerance has no bound: only the others count.
+  const std::vector<std::string> boxed{"--leading-edge", "u:0.4:0.6", "--rest-tolerance"};
+  const Outcome infeasible = constrained(with(boxed, {"0.001"}));
+  EXPECT_EQ(infeasible.exit_code, 1) << infeasible.output;
+  EXPECT_NE(infeasible.output.find("cannot be brought within 0.001 in together"), std::string::npos)
+      << infeasible.output;
+  const double smallest = read_json(result)["tolerance_factor"].get<double>();
+  EXPECT_LT(smallest, least);
+  EXPECT_GT(smallest, 0.001);
+  EXPECT_EQ(constrained(with(boxed, {fmt::format("{}", smallest * (1 + 1e-6))})).exit_code, 0);
+  EXPECT_EQ(constrained(with(boxed, {fmt::format("{}", smallest * (1 - 1e-6))})).exit_code, 1);
 }
 
 TEST_F(GoldenModeOptions, WhatAModeNeedsIsAskedFor) {

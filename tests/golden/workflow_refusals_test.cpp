@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"split", kFan, "-o", "OUT.igs", "--at", "u:0.5", "--buffer", "0.3"}, "leaves nothing of a patch"},
         Refusal{{"split", kFan, "-o", "OUT.igs", "--at", "u:0.5", "--buffer", "-1"}, "--buffer -1"},
         Refusal{{"split", kFan, "-o", "OUT.igs", "--at", "u:0.5", "--points", kPoints}, "belong together"},
-        Refusal{{"split", kFan, "-o", kFan, "--at", "u:0.5"}, "would be overwritten"},
+        Refusal{{"split", kFan, "-o", kFan, "--at", "u:0.5"}, "would overwrite the design"},
         Refusal{{"split", kFan, "-o", "OUT/a.igs", "--at", "u:0.5", "--points", kPoints, "--subset", "OUT.txt"},
                 "cannot be written",
                 3}));
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "not both"},
         Refusal{{"sample", kFan, "-o", "OUT.csv", "--grid", "4x4", "--noise", "-1"}, "--noise -1"},
         Refusal{{"sample", kFan, "-o", "OUT.csv", "--grid", "4x4", "--offset", "nan"}, "--offset nan"},
-        Refusal{{"sample", kFan, "-o", kFan, "--grid", "4x4"}, "would be overwritten"},
+        Refusal{{"sample", kFan, "-o", kFan, "--grid", "4x4"}, "would overwrite the design"},
         Refusal{{"sample", kFan, "-o", "OUT/a.csv", "--grid", "4x4"}, "cannot be written", 3}));
 
 }  // namespace

@@ -167,6 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"kind = \"dro\"\n[dro]\norder = \"xxy\"\n",
                 ":3: key 'dro.order': 'xxy' must have each of x, y and z once"},
         BadFile{"kind = \"dro\"\n[dro]\ndecimal_mark = \",\"\n", ":2: key 'dro.separators': has the decimal mark ','"},
+        BadFile{"kind = \"replay\"\n[replay]\nfile = \"\"\n", ":3: key 'replay.file': is empty; give a path"},
         BadFile{"kind = \"replay\"\n[replay]\nunits = \"ft\"\n", ":3: key 'replay.units': 'ft' is none of: mm, in"},
         BadFile{"kind = \"serial\"\nkind = \"dro\"\n", ":2: "}));
 
@@ -196,6 +197,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadFile{"[fit]\ntolerance = -1", ":2: key 'fit.tolerance': -1 is out of range"},
                     BadFile{"[fit]\nratio = 0.5", ":2: key 'fit.ratio': 0.5 is out of range"},
                     BadFile{"[fit]\nwindow = \"0.9:0.1\"", ":2: key 'fit.window': '0.9:0.1' is no window"},
+                    BadFile{"[fit]\nstart = \"\"", ":2: key 'fit.start': is empty; give a path"},
                     BadFile{"[fit]\nedges = \"keep\"", ":2: key 'fit.edges': 'keep' is none of: skip, use"}));
 
 TEST(SessionFile, NamesAFileThatCannotBeRead) {
@@ -217,6 +219,41 @@ TEST(SessionFile, LeavesOpenWhatItDoesNotSay) {
   EXPECT_EQ(settings.fit.probe_radius, 1.5);
   EXPECT_FALSE(settings.fit.tolerance || settings.device || settings.capacity || settings.panel.port ||
                settings.headless);
+}
+
+TEST(SessionFile, TakesEveryPathFromItsFolder) {
+  const File file("source = \"serial:port\"\n[fit]\nstart = \"pairs.csv\"\n");
+  const std::string folder = std::filesystem::path(file.path).parent_path();
+  SessionSettings settings;
+  ASSERT_EQ(load_session(file.path, settings).message, "");
+  EXPECT_EQ(settings.source, "serial:" + folder + "/port");
+  EXPECT_EQ(settings.fit.start, folder + "/pairs.csv");
+  FitSettings fit;
+  const File alone("[fit]\nstart = \"/marks/pairs.csv\"\n");
+  ASSERT_EQ(load_fit(alone.path, fit).message, "");
+  EXPECT_EQ(fit.start, "/marks/pairs.csv");
+  const File remote("source = \"modbus-tcp://cmm:502\"\n");
+  ASSERT_EQ(load_session(remote.path, settings).message, "");
+  EXPECT_EQ(settings.source, "modbus-tcp://cmm:502");
+}
+
+TEST(DeviceFile, TakesEveryPathFromItsFolder) {
+  const File line("kind = \"serial\"\n[line]\ndevice = \"port\"\n");
+  SourceSettings settings;
+  ASSERT_EQ(load_device(line.path, settings).message, "");
+  EXPECT_EQ(settings.line.device, std::filesystem::path(line.path).parent_path() / "port");
+  const File replay("kind = \"replay\"\n[replay]\nfile = \"points.csv\"\n");
+  ASSERT_EQ(load_device(replay.path, settings).message, "");
+  EXPECT_EQ(settings.replay.file, std::filesystem::path(replay.path).parent_path() / "points.csv");
+}
+
+TEST(DeviceFile, UnitsOfARecordingAreThoseOfTheCallerWhereItDoesNotTellThem) {
+  SourceSettings settings;
+  settings.replay.mm_per_unit = 25.4;
+  ASSERT_EQ(load_device(File("kind = \"replay\"\n").path, settings).message, "");
+  EXPECT_EQ(settings.replay.mm_per_unit, 25.4);
+  ASSERT_EQ(load_device(File("kind = \"replay\"\n[replay]\nunits = \"mm\"\n").path, settings).message, "");
+  EXPECT_EQ(settings.replay.mm_per_unit, 1);
 }
 
 TEST(LeadingEdge, IsReadAsOnTheCommandLine) {

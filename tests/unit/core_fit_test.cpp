@@ -171,7 +171,7 @@ RC_GTEST_PROP(PoseSolver, MinimumIsThatOfTheDenseSystem, ()) {
   std::mt19937_64 random = drawn();
   Mat6 basis;
   const QuadraticModel model = random_model(random, 6, basis, 0.01);
-  const Determination determination = determine(model, 1e-9);
+  const Determination determination = determine(model, spectrum_of(model), 1e-9);
   RC_ASSERT(determination.rank == 6U);
   const Vec6 x0 = Vec6::NullaryExpr([&] { return uniform(random, -1, 1); });
   const Vec6 x = minimum_of(model, determination, x0);
@@ -186,7 +186,7 @@ RC_GTEST_PROP(PoseSolver, DoesNotMoveWhereNothingIsDetermined, ()) {
   const int rank = static_cast<int>(random() % 6);
   Mat6 basis;
   const QuadraticModel model = random_model(random, rank, basis, 0.0);
-  const Determination determination = determine(model, 1e-9);
+  const Determination determination = determine(model, spectrum_of(model), 1e-9);
   RC_ASSERT(static_cast<int>(determination.rank) == rank);
   const Vec6 x0 = Vec6::NullaryExpr([&] { return uniform(random, -1, 1); });
   const Vec6 x = minimum_of(model, determination, x0);
@@ -204,7 +204,7 @@ RC_GTEST_PROP(PoseSolver, DescendsWhereTheExactHessianIsIndefinite, ()) {
   const Vec6 direction = Vec6::NullaryExpr([&] { return uniform(random, -1, 1); }).normalized();
   model.bend = -100.0 * direction * direction.transpose();
   RC_ASSERT(!Cholesky(model.gauss + model.bend).positive_definite());
-  const Vec6 step = minimum_of(model, determine(model, 1e-9), Vec6::Zero());
+  const Vec6 step = minimum_of(model, determine(model, spectrum_of(model), 1e-9), Vec6::Zero());
   RC_ASSERT(step.dot(model.gradient) < 0.0);
 }
 
@@ -212,7 +212,7 @@ RC_GTEST_PROP(PoseSolver, CovarianceIsTheInverse, ()) {
   std::mt19937_64 random = drawn();
   Mat6 basis;
   const QuadraticModel model = random_model(random, 6, basis, 0.0);
-  const Mat6 covariance = unit_covariance(model, determine(model, 1e-9), 1.0);
+  const Mat6 covariance = unit_covariance(model, determine(model, spectrum_of(model), 1e-9), 1.0);
   RC_ASSERT(largest(covariance - Eigen::MatrixXd(model.gauss).inverse()) < 1e-10 * largest(covariance));
 }
 

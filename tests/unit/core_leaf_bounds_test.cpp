@@ -118,6 +118,30 @@ TEST(Creases, TheRidgeIsTheNearestOfAPointAboveIt) {
   }
 }
 
+/// Newton's method does not end on a ridge, so the foot is searched in every sweep; it is the same foot.
+TEST(Creases, AFitWithAPointAboveTheRidgeComesToRest) {
+  const CompiledDesign design(write_image({roof(3)}, DesignUnit::mm, 1));
+  std::mt19937_64 random(12);
+  LocalizerConfig config;
+  config.capacity = 100;
+  for (const EdgePolicy edges : {EdgePolicy::skip, EdgePolicy::use}) {
+    config.edges = edges;
+    OwnedLocalizer localizer(design.image(), config);
+    ProbePoint point;
+    for (std::uint32_t i = 1; i <= 60; ++i) {
+      const double y = uniform(random, 1, 9) * (i % 2 == 0 ? 1 : -1);
+      point.sequence = i;
+      point.position = {uniform(random, 2, 18), y, -std::abs(y) + uniform(random, 0.01, 0.03)};
+      ASSERT_EQ(localizer->stage(point), Status::ok);
+    }
+    point.sequence = 61;
+    point.position = {7, 0.5, 3};
+    ASSERT_EQ(localizer->stage(point), Status::ok);
+    localizer->conclude();
+    EXPECT_EQ(refine_fully(*localizer), Status::underdetermined) << "along the ridge";
+  }
+}
+
 TEST(Creases, ASmoothKnotIsNone) {
   NurbsSurface flat = roof(3);
   for (Eigen::Vector3d& point : flat.control_points) point.z() = 0;

@@ -30,14 +30,14 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-std::string read_text(const std::filesystem::path& path) {
+std::string read_text(const std::filesystem::path& path, std::string_view what) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
     throw DesignError(fmt::format("{}: no such file; check the name", path.string()));
   }
   if (std::filesystem::is_directory(status)) {
-    throw DesignError(fmt::format("{}: is a folder; name the design file in it", path.string()));
+    throw DesignError(fmt::format("{}: is a folder; name the {} file in it", path.string(), what));
   }
   std::ifstream stream(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

@@ -51,8 +51,8 @@ OutwardOption parse_outward(std::string_view text);
 /// The extension of `path` in lower case, with its dot.
 std::string lower_extension(const std::filesystem::path& path);
 
-/// The whole file. Throws DesignError: bad_input where it does not exist or is a folder, io_failure where reading
-/// fails.
-std::string read_text(const std::filesystem::path& path);
+/// The whole file; `what` says in messages what is in it. Throws DesignError: bad_input where it does not exist or is a
+/// folder, io_failure where reading fails.
+std::string read_text(const std::filesystem::path& path, std::string_view what = "design");
 
 }  // namespace bladefit

@@ -24,6 +24,15 @@ std::filesystem::path resolve(const std::filesystem::path& path) {
   return std::filesystem::canonical(path);
 }
 
+/// One name for every way to spell a place. Where the first folder of a relative path is missing, weakly_canonical
+/// alone leaves it relative.
+std::filesystem::path place_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  const std::filesystem::path place = std::filesystem::weakly_canonical(whole, error);
+  return error ? whole : place;
+}
+
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
   throw DesignError(fmt::format("{}: cannot be written: {}; check folder, permissions and free space", path.string(),
                                 std::generic_category().message(error)),
@@ -65,9 +74,13 @@ void OutputFile::commit() {
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code error;
-  return !a.empty() && !b.empty() &&
-         std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
+  return !a.empty() && !b.empty() && place_of(a) == place_of(b);
+}
+
+void refuse_overwriting(const std::filesystem::path& output, std::string_view what,
+                        const std::filesystem::path& input) {
+  if (!same_file(output, input)) return;
+  throw DesignError(fmt::format("{}: the output would overwrite the {}; give another name", input.string(), what));
 }
 
 }  // namespace bladefit

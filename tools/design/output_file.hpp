@@ -25,4 +25,8 @@ class OutputFile {
 /// True where both name the same place, whether something stands there or not. Empty names are no place.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
+/// Refuses an output that would take the place of an input; `what` says what that one is. Empty names are no place.
+/// Throws DesignError (bad_input).
+void refuse_overwriting(const std::filesystem::path& output, std::string_view what, const std::filesystem::path& input);
+
 }  // namespace bladefit

@@ -99,6 +99,8 @@ BladeSections parse_sections_csv(std::string_view text, const std::string& name)
   return result;
 }
 
-BladeSections read_sections_csv(const std::string& path) { return parse_sections_csv(read_text(path), path); }
+BladeSections read_sections_csv(const std::string& path) {
+  return parse_sections_csv(read_text(path, "sections"), path);
+}
 
 }  // namespace bladefit
