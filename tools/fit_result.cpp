@@ -26,8 +26,8 @@ bool is_identity(const Pose& pose) {
 }
 
 std::vector<double> distances_of(const std::vector<Verdict>& verdicts) {
-  std::vector<double> distances;
-  for (const Verdict& v : verdicts) distances.push_back(v.foot.distance);
+  std::vector<double> distances(verdicts.size());
+  std::transform(verdicts.begin(), verdicts.end(), distances.begin(), [](const Verdict& v) { return v.foot.distance; });
   return distances;
 }
 
@@ -36,6 +36,7 @@ std::vector<double> distances_as_measured(const DesignImage& design, const Local
                                           const std::vector<ProbePoint>& points) {
   const Surface surface(design);
   std::vector<double> distances;
+  distances.reserve(points.size());
   for (const ProbePoint& point : points) {
     ProjectionQuery query;
     query.point = Vec3(point.position.data());
