@@ -23,7 +23,7 @@ struct SourceStatus {
   bool finished = false;      ///< the device said that the program is finished, and every record was delivered
   bool device_fault = false;  ///< the device says that it has a fault
   bool behind = false;        ///< records are known to be there that have not been delivered yet
-  std::uint32_t run_id = 0;   ///< the device's run; another value means that numbering has restarted; 0 = unknown
+  std::uint32_t run_id = 0;  ///< of the device; another value means that numbering has restarted; without runs always 0
   std::uint64_t records = 0;  ///< good records received, resent ones included
   std::uint64_t duplicates = 0;
   std::uint64_t damaged = 0;  ///< records or frames whose check sum or sequence was wrong
@@ -44,8 +44,8 @@ class ProbeSource {
 
   /// Connects and asks for the records after `after` (0 = from the first). A device that is missing, busy, of another
   /// map version or of a wrong word order is an error here; later losses of the link are mended by the source itself.
-  /// `run_id` is the run that the records up to `after` are of (0 = unknown): a device that is in another one is left
-  /// as it is, where the protocol tells the run before it asks for anything; status() says which run it is in.
+  /// `run_id` is the run that the records up to `after` are of (where there are any): a device that is in another one
+  /// is left as it is, where the protocol tells the run before it asks for anything; status() says which run it is in.
   [[nodiscard]] virtual SourceError open(std::uint32_t after, std::uint32_t run_id) = 0;
 
   /// Waits for at most `timeout` and writes the next records to `points`. Returns how many; 0 is no error.

@@ -14,7 +14,7 @@ struct CmmHeader {
   std::uint32_t newest = 0;       ///< sequence of the newest record; 0 = none yet
   std::uint32_t capacity = 0;     ///< [records]
   std::uint32_t record_size = 0;  ///< [registers]
-  std::uint32_t run_id = 0;       ///< 0 = unknown
+  std::uint32_t run_id = 0;       ///< 0 where the device tells none
   bool test_constant_provided = false;
   double test_constant = 0;
   double test_constant_swapped = 0;  ///< as the other word order would have it

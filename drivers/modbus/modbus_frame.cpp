@@ -46,7 +46,10 @@ ReplyKind match_reply(std::span<const std::uint8_t> pdu, const ModbusRequest& re
   if (pdu.size() == 2 && pdu[0] == (request.function | kRefusedBit)) {
     fault = fmt::format("the device refuses function {} at register {}: {}", request.function, request.address,
                         modbus_strerror(MODBUS_ENOBASE + pdu[1]));
-    return ReplyKind::refused;
+    const bool busy = pdu[1] == MODBUS_EXCEPTION_ACKNOWLEDGE || pdu[1] == MODBUS_EXCEPTION_SLAVE_OR_SERVER_BUSY;
+    if (!busy) return ReplyKind::refused;
+    fault += "; end what keeps it busy";
+    return ReplyKind::busy;
   }
   if (pdu.size() != reply_size(request) || pdu[0] != request.function) return ReplyKind::foreign;
   if (writes(request)) {

@@ -33,10 +33,11 @@ enum class ReplyKind : std::uint8_t {
   good,     ///< answers the request
   foreign,  ///< answers another request, such as an earlier one whose reply came late
   refused,  ///< the device refuses the request
+  busy,     ///< the device refuses it for now
 };
 
 /// Compares a reply with its request. With `good` the registers that were read are in `registers`, which has room for
-/// request.count of them; with `refused` the reason is in `fault`.
+/// request.count of them; with `refused` and `busy` the reason is in `fault`.
 [[nodiscard]] ReplyKind match_reply(std::span<const std::uint8_t> pdu, const ModbusRequest& request,
                                     std::span<std::uint16_t> registers, std::string& fault);
 

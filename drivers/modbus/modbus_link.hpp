@@ -17,6 +17,7 @@ enum class LinkEvent : std::uint8_t {
   timeout,  ///< the deadline of the transaction has passed; the link stays open
   damaged,  ///< a reply that cannot be used; the link stays open
   refused,  ///< the device answered with an exception
+  busy,     ///< the device answered that it is busy
   broken,   ///< the link is closed
 };
 

@@ -6,8 +6,7 @@
 #include <thread>
 
 #include "drivers/host_clock.hpp"
-#include "drivers/modbus/cmm_header.hpp"
-#include "drivers/modbus/number_codec.hpp"
+#include "drivers/modbus/cmm_requests.hpp"
 #include "drivers/source_fault.hpp"
 #include "drivers/source_uri.hpp"
 
@@ -109,36 +108,57 @@ void ModbusSource::reconnect(Clock::time_point until) {
   if (!link_->remark().empty()) status_.last_fault = link_->remark();
   stage_ = Stage::identify;
   header_refusals_ = timeouts_ = 0;
-  next_header_ = link_->ready_at();
+  next_header_ = next_read_ = next_write_ = link_->ready_at();
 }
 
 void ModbusSource::begin_transaction(Clock::time_point until) {
   const Clock::time_point now = Clock::now();
-  if (now < link_->ready_at()) {
-    std::this_thread::sleep_until(std::min(until, link_->ready_at()));
-    return;
-  }
+  if (now < link_->ready_at()) return std::this_thread::sleep_until(std::min(until, link_->ready_at()));
+  if (now >= next_write_ && !read_first_ && begin_write()) return;
+  begin_read(now, until);
+}
+
+/// The acknowledge, or the command after it. Returns false where there is nothing to be written.
+bool ModbusSource::begin_write() {
+  if (foreign_headers_ > 0) return false;
   const CmmMap& map = settings_.modbus.map;
-  if (stage_ == Stage::announce || (stage_ == Stage::running && stored_ != sent_ && foreign_headers_ == 0)) {
+  if (stage_ == Stage::announce || (stage_ == Stage::running && stored_ != sent_)) {
     sending_ = stored_;
-    if (map.acknowledge.present) return begin(Purpose::acknowledge, write_request(map.acknowledge, sending_));
+    if (map.acknowledge.present) {
+      begin(Purpose::acknowledge, write_request(map, map.acknowledge, sending_));
+      return true;
+    }
     sent_ = sending_;
     if (stage_ == Stage::announce) stage_ = Stage::command;
   }
   if (stage_ == Stage::command) {
-    if (next_command_ != 0) return begin(Purpose::command, write_request(map.command, next_command_));
+    if (next_command_ != 0) {
+      begin(Purpose::command, write_request(map, map.command, next_command_));
+      return true;
+    }
     stage_ = Stage::running;
   }
-  const bool header_due = now >= next_header_;
-  batch_ = stage_ == Stage::running ? ring_.next_batch() : RecordBatch{};
-  if (batch_.count > 0 && !header_due) {
-    begin(Purpose::records, read_request(batch_.address, static_cast<std::uint16_t>(batch_.count * map.record_size)));
-  } else if (header_due) {
+  return false;
+}
+
+/// The header when it is due, records otherwise. On a slow line the header is always due: records come after it.
+void ModbusSource::begin_read(Clock::time_point now, Clock::time_point until) {
+  const CmmMap& map = settings_.modbus.map;
+  // While open() waits for the start, the ring may hold an earlier run. Later a refused write keeps no record back.
+  const bool wanted = stage_ == Stage::running || (!opening_ && stage_ != Stage::identify);
+  const bool allowed = now >= next_read_;
+  batch_ = wanted && allowed ? ring_.next_batch() : RecordBatch{};
+  header_last_ = allowed && now >= next_header_ && (batch_.count == 0 || !header_last_);
+  if (header_last_) {
     const RegisterBlock block = header_block(map);
-    begin(Purpose::header, read_request(block.first, block.count));
+    begin(Purpose::header, read_request(map, block.first, block.count));
+  } else if (batch_.count > 0) {
+    const auto registers = static_cast<std::uint16_t>(batch_.count * map.record_size);
+    begin(Purpose::records, read_request(map, batch_.address, registers));
   } else {
-    std::this_thread::sleep_until(std::min(until, next_header_));
+    return std::this_thread::sleep_until(std::min(until, std::max(next_header_, next_read_)));
   }
+  read_first_ = false;
 }
 
 void ModbusSource::begin(Purpose purpose, const ModbusRequest& request) {
@@ -181,43 +201,34 @@ void ModbusSource::header_read() {
   next_header_ = Clock::now() + settings_.modbus.poll_period;
   const CmmHeader header = decode_header(registers_, settings_.modbus.map);
   const std::string refusal = check_header(header, settings_.modbus.map);
-  if (refusal.empty()) {
-    header_refusals_ = 0;
-    headers_ = std::min(headers_ + 1, kHeadersToOpen);
-    note_good(status_);
-    foreign_headers_ = foreign(header) ? foreign_headers_ + 1 : 0;
-    if (stage_ == Stage::identify && foreign_headers_ == 0) identify(header);
-    ring_.observe(header);
-    return;
-  }
+  if (refusal.empty()) return header_accepted(header);
   ++status_.damaged;
   note_fault(status_, refusal);
   if (++header_refusals_ >= kHeaderTries && opening_) refusal_ = refusal;
 }
 
-/// Of another run than the records taken so far: it must not be told that any of its own are stored.
-bool ModbusSource::foreign(const CmmHeader& header) const {
-  return ring_.next() > 1 && run_id_ != 0 && header.run_id != 0 && header.run_id != run_id_;
+void ModbusSource::header_accepted(const CmmHeader& header) {
+  header_refusals_ = 0;
+  // Those read while the device refuses the start cannot tell of the run that it begins.
+  if (stage_ == Stage::identify || stage_ == Stage::running) headers_ = std::min(headers_ + 1, kHeadersToOpen);
+  note_good(status_);
+  const bool nothing_taken = ring_.next() == 1;
+  foreign_headers_ = foreign(header) ? foreign_headers_ + 1 : 0;
+  if (stage_ != Stage::running && foreign_headers_ == 0) identify(header);
+  ring_.observe(header);
+  if (nothing_taken) run_id_ = status_.run_id;
 }
 
-/// The first good header after the link was made.
+/// Of another run than the records taken so far: it must not be told that any of its own are stored. A device without
+/// run ids always tells 0.
+bool ModbusSource::foreign(const CmmHeader& header) const { return ring_.next() > 1 && header.run_id != run_id_; }
+
+/// A good header before the device has taken its command: each decides anew which one that is.
 void ModbusSource::identify(const CmmHeader& header) {
-  if (header.run_id != 0) run_id_ = header.run_id;
-  next_command_ = settings_.modbus.map.command.present ? command_for(header) : std::uint16_t{0};
+  next_command_ = command_for(settings_.modbus.map, header, ring_.next(), opening_);
   status_.link = LinkState::up;
-  stage_ = Stage::announce;
+  if (stage_ == Stage::identify) stage_ = Stage::announce;
   back_off_.succeeded();
-}
-
-/// A device that goes on by itself is left alone, so that a short loss of the link does not make it probe anything
-/// again.
-std::uint16_t ModbusSource::command_for(const CmmHeader& header) const {
-  const CmmMap& map = settings_.modbus.map;
-  if (ring_.next() == 1) return opening_ || header.newest == 0 ? map.command_start : std::uint16_t{0};
-  const bool behind = header.newest + 1 < ring_.next();
-  const bool active_known = map.status.present && map.probing_mask != 0;
-  const bool active = (header.status & (map.probing_mask | map.finished_mask)) != 0;
-  return behind || (active_known && !active) ? map.command_restart : std::uint16_t{0};
 }
 
 void ModbusSource::records_read() {
@@ -229,13 +240,10 @@ void ModbusSource::records_read() {
 
 void ModbusSource::transaction_failed(LinkEvent event) {
   if (event == LinkEvent::broken) return link_lost(link_->fault());
-  purpose_ = Purpose::none;
+  const Purpose purpose = std::exchange(purpose_, Purpose::none);
   note_fault(status_, link_->fault());
   if (event == LinkEvent::damaged) ++status_.damaged;
-  if (event == LinkEvent::refused) {
-    next_header_ = Clock::now() + settings_.modbus.poll_period;
-    if (opening_) refusal_ = link_->fault() + "; correct the addresses, or lower batch, in the device file";
-  }
+  if (event == LinkEvent::refused || event == LinkEvent::busy) return request_refused(purpose, event);
   if (event != LinkEvent::timeout) return;
   ++timeouts_;
   ++status_.resends;
@@ -247,6 +255,16 @@ void ModbusSource::transaction_failed(LinkEvent event) {
   }
 }
 
+/// What was refused is asked again, a poll period later: a refused write must not keep from reading, nor the reverse.
+void ModbusSource::request_refused(Purpose purpose, LinkEvent event) {
+  read_first_ = purpose == Purpose::acknowledge || purpose == Purpose::command;
+  Clock::time_point& next = read_first_ ? next_write_ : next_read_;
+  next = Clock::now() + settings_.modbus.poll_period;
+  if (opening_ && event == LinkEvent::refused) {
+    refusal_ = link_->fault() + "; correct the addresses, or lower batch, in the device file";
+  }
+}
+
 void ModbusSource::link_lost(const std::string& fault) {
   purpose_ = Purpose::none;
   stage_ = Stage::down;
@@ -255,29 +273,11 @@ void ModbusSource::link_lost(const std::string& fault) {
   back_off_.failed(Clock::now());
 }
 
-ModbusRequest ModbusSource::read_request(std::uint16_t address, std::uint16_t count) const {
-  ModbusRequest request;
-  const bool input = settings_.modbus.map.table == RegisterTable::input;
-  request.function = input ? MODBUS_FC_READ_INPUT_REGISTERS : MODBUS_FC_READ_HOLDING_REGISTERS;
-  request.address = address;
-  request.count = count;
-  return request;
-}
-
-ModbusRequest ModbusSource::write_request(const NumberField& field, std::uint32_t value) const {
-  ModbusRequest request;
-  request.count = register_count(field.type);
-  request.function = request.count == 1 ? MODBUS_FC_WRITE_SINGLE_REGISTER : MODBUS_FC_WRITE_MULTIPLE_REGISTERS;
-  request.address = field.address;
-  encode_whole(value, field.type, settings_.modbus.map.word_order, request.values);
-  return request;
-}
-
 /// Writes once and waits for the reply until `until`.
 bool ModbusSource::write_now(const NumberField& field, std::uint32_t value, Clock::time_point until) {
   if (!field.present || !link_->is_open()) return false;
   std::this_thread::sleep_until(std::min(until, link_->ready_at()));
-  if (link_->send(write_request(field, value)) != LinkEvent::done) return false;
+  if (link_->send(write_request(settings_.modbus.map, field, value)) != LinkEvent::done) return false;
   return link_->receive(registers_, until) == LinkEvent::done;
 }
 

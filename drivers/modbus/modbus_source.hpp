@@ -38,17 +38,18 @@ class ModbusSource final : public ProbeSource {
   void reconnect(Clock::time_point until);
   void finish_transaction(Clock::time_point until);
   void begin_transaction(Clock::time_point until);
+  [[nodiscard]] bool begin_write();
+  void begin_read(Clock::time_point now, Clock::time_point until);
   void begin(Purpose purpose, const ModbusRequest& request);
   void transaction_done();
   void header_read();
+  void header_accepted(const CmmHeader& header);
   [[nodiscard]] bool foreign(const CmmHeader& header) const;
   void identify(const CmmHeader& header);
   void records_read();
   void transaction_failed(LinkEvent event);
+  void request_refused(Purpose purpose, LinkEvent event);
   void link_lost(const std::string& fault);
-  [[nodiscard]] std::uint16_t command_for(const CmmHeader& header) const;
-  [[nodiscard]] ModbusRequest read_request(std::uint16_t address, std::uint16_t count) const;
-  [[nodiscard]] ModbusRequest write_request(const NumberField& field, std::uint32_t value) const;
   [[nodiscard]] SourceError open_error(const std::string& what);
   [[nodiscard]] bool write_now(const NumberField& field, std::uint32_t value, Clock::time_point until);
 
@@ -69,12 +70,15 @@ class ModbusSource final : public ProbeSource {
   bool opening_ = false;
   bool connected_ = false;    ///< a link was made since open()
   int headers_ = 0;           ///< good ones since open(), as far as open() counts them
-  std::uint32_t run_id_ = 0;  ///< of the records that were taken; 0 = unknown, or none were
+  std::uint32_t run_id_ = 0;  ///< of the records that were taken; what the device tells where none were
   int foreign_headers_ = 0;   ///< headers in a row of another run
   int header_refusals_ = 0;   ///< headers in a row that check_header() refused
   int timeouts_ = 0;          ///< in a row
   std::string refusal_;       ///< why the device cannot be read; empty = it can
   Clock::time_point next_header_{};
+  Clock::time_point next_read_{}, next_write_{};  ///< a refused request of the kind waits until then
+  bool read_first_ = false;   ///< a refused write also waits for a read: on a slow line the time has passed at once
+  bool header_last_ = false;  ///< the header has had its turn: now records have theirs
 };
 
 }  // namespace bladefit

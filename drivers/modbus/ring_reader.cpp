@@ -25,8 +25,8 @@ void RingReader::restart(std::uint32_t after) {
   previous_.reset();
   next_ = after + 1;
   taken_ = after;
-  tries_ = losses_seen_ = overflows_seen_ = finishes_seen_ = overshoots_seen_ = 0;
-  stopped_ = false;
+  tries_ = losses_seen_ = overflow_changes_seen_ = finishes_seen_ = overshoots_seen_ = 0;
+  overflow_ = stopped_ = false;
 }
 
 void RingReader::observe(const CmmHeader& header) {
@@ -71,15 +71,22 @@ bool RingReader::adopt_identity(const CmmHeader& header) {
 }
 
 void RingReader::note_losses(const CmmHeader& header) {
-  overflows_seen_ = (header.status & settings_.map.overflow_mask) != 0 ? overflows_seen_ + 1 : 0;
-  if (overflows_seen_ == kHeadersForLoss && status_.losses == 0) {
-    note_loss(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
-  }
+  note_overflow((header.status & settings_.map.overflow_mask) != 0);
   const bool lost = header.newest > header.capacity && header.newest - header.capacity + 1 > next_;
   losses_seen_ = lost ? losses_seen_ + 1 : 0;
   if (losses_seen_ < kHeadersForLoss) return;
   losses_seen_ = 0;
   skip_to(header.newest - header.capacity + 1, "overwritten in the device before they were read");
+}
+
+/// The bit may stay set for long after a loss; it tells of another one only after it was cleared.
+void RingReader::note_overflow(bool told) {
+  overflow_changes_seen_ = told != overflow_ ? overflow_changes_seen_ + 1 : 0;
+  if (overflow_changes_seen_ < kHeadersForLoss) return;
+  overflow_changes_seen_ = 0;
+  overflow_ = told;
+  if (!told) return;
+  note_loss(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
 }
 
 void RingReader::note_finish(const CmmHeader& header) {

@@ -49,6 +49,7 @@ class RingReader {
  private:
   [[nodiscard]] bool adopt_identity(const CmmHeader& header);
   void note_losses(const CmmHeader& header);
+  void note_overflow(bool told);
   void note_finish(const CmmHeader& header);
   void mend_overshoot(const CmmHeader& header);
   void damaged(const std::string& fault);
@@ -62,7 +63,8 @@ class RingReader {
   std::uint32_t next_ = 1;
   std::uint32_t taken_ = 0;  ///< last record that was good
   int tries_ = 0;            ///< how often the record next_ was found damaged
-  int losses_seen_ = 0, overflows_seen_ = 0, finishes_seen_ = 0, overshoots_seen_ = 0;
+  int losses_seen_ = 0, overflow_changes_seen_ = 0, finishes_seen_ = 0, overshoots_seen_ = 0;
+  bool overflow_ = false;  ///< the overflow bit is set, as headers in a row have told
   bool stopped_ = false;
 };
 

@@ -73,6 +73,8 @@ LinkEvent TcpLink::receive(std::span<std::uint16_t> registers, Clock::time_point
         return LinkEvent::done;
       case ReplyKind::refused:
         return LinkEvent::refused;
+      case ReplyKind::busy:
+        return LinkEvent::busy;
       case ReplyKind::foreign:
         return broken("a reply that does not fit its request");
     }

@@ -20,15 +20,16 @@ constexpr int kSilencesToRestart = 5;  ///< intervals of silence after which $ST
 
 }  // namespace
 
-void SerialSession::restart(std::uint32_t after) {
+void SerialSession::restart(std::uint32_t after, std::uint32_t run_id) {
   stage_ = Stage::down;
   points_.clear();
   output_.clear();
   ahead_.clear();
   next_ = after + 1;
   stored_ = acknowledged_ = after;
-  run_known_ = doubtful_ = false;
-  end_ = 0;
+  doubtful_ = false;
+  end_.reset();
+  run_id_ = run_id;
   asked_for_ = 0;
   asked_ = 0;
 }
@@ -64,18 +65,17 @@ void SerialSession::received(const SerialMessage& message, Clock::time_point now
 }
 
 void SerialSession::run_told(std::uint32_t run_id, Clock::time_point now) {
-  if (run_known_ && next_ > 1 && run_id != status_.run_id) {
+  status_.run_id = run_id;
+  if (next_ > 1 && run_id != run_id_) {
     stage_ = Stage::stopped;
-    end_ = 0;
+    end_.reset();
     note_fault(status_,
                fmt::format("the device has begun another run ({} instead of {}) and numbers its records from 1 "
                            "again; end this session and start a new one",
-                           run_id, status_.run_id));
-    status_.run_id = run_id;
+                           run_id, run_id_));
     return;
   }
-  run_known_ = true;
-  status_.run_id = run_id;
+  run_id_ = run_id;
   status_.link = LinkState::up;
   stage_ = Stage::running;
   starts_ = 0;
@@ -109,7 +109,7 @@ void SerialSession::deliver(const ProbePoint& point) {
     }
     ahead_.erase(ahead_.begin());
   }
-  if (next_ > end_ + 1) end_ = 0;
+  if (end_ && next_ > *end_ + 1) end_.reset();
 }
 
 void SerialSession::end_told(std::uint32_t last, Clock::time_point now) {
@@ -142,7 +142,7 @@ SerialSession::Clock::time_point SerialSession::ask_at() const {
 void SerialSession::ask_again(Clock::time_point now) {
   if (now < ask_at()) return;
   if (behind() && asked_in_vain(now)) {
-    if (ahead_.empty()) return give_up_before(end_ + 1);
+    if (ahead_.empty()) return give_up_before(*end_ + 1);
     give_up_before(ahead_.begin()->first);
     return deliver(ProbePoint(ahead_.begin()->second));
   }

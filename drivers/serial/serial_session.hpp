@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "drivers/point_queue.hpp"
@@ -27,8 +28,8 @@ class SerialSession {
 
   SerialSession(const SerialSettings& settings, SourceStatus& status) : settings_(settings), status_(status) {}
 
-  /// Forgets everything; the next record wanted is after + 1.
-  void restart(std::uint32_t after);
+  /// Forgets everything; the next record wanted is after + 1. Those before it are of the run `run_id`.
+  void restart(std::uint32_t after, std::uint32_t run_id);
 
   /// The port is open.
   void link_made(Clock::time_point now);
@@ -63,7 +64,7 @@ class SerialSession {
   [[nodiscard]] bool stopped() const { return stage_ == Stage::stopped; }
 
   /// Records are missing ahead of others that came, or ahead of the end that the device told.
-  [[nodiscard]] bool behind() const { return !ahead_.empty() || end_ >= next_; }
+  [[nodiscard]] bool behind() const { return !ahead_.empty() || (end_ && *end_ >= next_); }
 
   /// The device said that the program is finished, and every record was handed out.
   [[nodiscard]] bool finished() const { return complete() && points_.empty(); }
@@ -71,7 +72,7 @@ class SerialSession {
  private:
   enum class Stage : std::uint8_t { down, starting, running, stopped };
 
-  [[nodiscard]] bool complete() const { return end_ != 0 && end_ + 1 == next_; }
+  [[nodiscard]] bool complete() const { return end_ && *end_ + 1 == next_; }
   void start(Clock::time_point now);
   void run_told(std::uint32_t run_id, Clock::time_point now);
   void point_came(const ProbePoint& point, Clock::time_point now, std::int64_t time_us);
@@ -90,9 +91,9 @@ class SerialSession {
   std::string output_;
   std::map<std::uint32_t, ProbePoint> ahead_;  ///< records behind a missing one
   std::uint32_t next_ = 1;
-  std::uint32_t end_ = 0;  ///< last sequence of the program, as $END told it; 0 = not told
+  std::optional<std::uint32_t> end_;  ///< last sequence of the program, as $END told it
+  std::uint32_t run_id_ = 0;          ///< of the records that were taken; what $RUN told where none were
   std::uint32_t stored_ = 0, acknowledged_ = 0;
-  bool run_known_ = false;
   bool doubtful_ = false;           ///< a damaged line came since the last good record
   int starts_ = 0;                  ///< $START sent in a row without an answer
   int silences_ = 0;                ///< intervals of silence in a row

@@ -26,14 +26,15 @@ SerialSource::SerialSource(const SourceSettings& settings)
       session_(settings_.serial, status_),
       port_(settings.line, settings.serial.reconnect_first, settings.serial.reconnect_longest) {}
 
-SourceError SerialSource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
+SourceError SerialSource::open(std::uint32_t after, std::uint32_t run_id) {
   status_ = {};
-  session_.restart(after);
+  session_.restart(after, run_id);
   if (const std::string fault = port_.open(); !fault.empty()) return {fmt::format("{}: {}", name_, fault)};
   link_made();
   const Clock::time_point deadline = Clock::now() + settings_.serial.open_timeout;
-  while (!session_.running() && Clock::now() < deadline) step(deadline);
-  if (session_.running()) return {};
+  const auto answered = [this] { return session_.running() || session_.stopped(); };
+  while (!answered() && Clock::now() < deadline) step(deadline);
+  if (answered()) return {};
   const std::string fault = port_->is_open()
                                 ? "the device does not answer $START; switch it on, or correct baud and parity"
                                 : status_.last_fault;
@@ -116,7 +117,8 @@ void SerialSource::reconnect(Clock::time_point until) {
 void SerialSource::close() {
   if (!port_->is_open()) return;
   send();
-  unsent_ += encode_line(serial_protocol_v1::kStopTag);
+  // A device in another run is left to it.
+  if (!session_.stopped()) unsent_ += encode_line(serial_protocol_v1::kStopTag);
   const Clock::time_point until = Clock::now() + kCloseTime;
   while (port_->is_open() && !unsent_.empty() && Clock::now() < until) {
     send();

@@ -53,7 +53,7 @@ bool Acquisition::open_source() {
     if (error) shared_.fail(error);
     return !error;
   }
-  if (recorded_.run_id != 0 && run_id_ != 0 && recorded_.run_id != run_id_) {
+  if (recorded_.run_id != run_id_) {
     shared_.fail(
         {Fault::bad_input,
          fmt::format("the device is in run {}, the session folder holds run {}: its points have other numbers; "
@@ -133,7 +133,7 @@ void Acquisition::announce_changes(const SourceStatus& status) {
 
 bool Acquisition::run_id_has_changed() {
   const std::uint32_t now = source_.status().run_id;
-  if (now == 0 || run_id_ == 0 || now == run_id_) return false;
+  if (now == run_id_) return false;
   shared_.fail({Fault::device, fmt::format("the device has left run {} and started run {}, which numbers its points "
                                            "from 1 again; start a session in another folder for it",
                                            run_id_, now)});

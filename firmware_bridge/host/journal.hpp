@@ -13,7 +13,7 @@ namespace bladefit {
 struct JournalContent {
   bool exists = false;  ///< false: no journal, or one whose header was never completed
   SessionIdentity identity;
-  std::uint32_t run_id = 0;         ///< of the device; 0 = unknown
+  std::uint32_t run_id = 0;         ///< of the device; 0 where it tells none
   std::vector<StreamEvent> events;  ///< in the order in which they came
   std::uint64_t torn_bytes = 0;     ///< bytes of a record or group of records at the end that was never completed
 };

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -112,7 +113,7 @@ class ScriptedSource : public ProbeSource {
     const std::size_t end = std::min(points_.size(), stop_after);
     if (next_ >= end) {
       status_.finished = next_ == points_.size();
-      if (later_run_id != 0) status_.run_id = later_run_id;
+      if (later_run_id) status_.run_id = *later_run_id;
       status_.losses = losses;
       std::this_thread::sleep_for(timeout);
       return 0;
@@ -130,8 +131,8 @@ class ScriptedSource : public ProbeSource {
 
   std::string refusal;  ///< open() fails with this
   std::uint32_t run_id = 7;
-  std::uint32_t later_run_id = 0;     ///< once it is silent it says that it is in this run; 0 = no change
-  std::size_t stop_after = SIZE_MAX;  ///< falls silent after so many points
+  std::optional<std::uint32_t> later_run_id;  ///< once it is silent it says that it is in this run
+  std::size_t stop_after = SIZE_MAX;          ///< falls silent after so many points
   bool device_fault = false;
   std::atomic<std::uint64_t> losses{0};  ///< how many it tells of once it is silent
   std::uint32_t opened_after = 0;

@@ -123,20 +123,51 @@ TEST(BridgeHost, AJournalTornAnywhereEndsWithTheSameBits) {
   }
 }
 
-TEST(BridgeHost, RefusesASessionOfOtherSettingsOrAnotherRun) {
+TEST(BridgeHost, RefusesASessionOfOtherSettings) {
   const ScratchFolder folder;
-  HostSettings settings = settings_for(folder / "session");
+  const HostSettings settings = settings_for(folder / "session");
   ScriptedSource source(measured_points(50));
   ASSERT_FALSE(run_to_end(settings, source).error);
   HostSettings other = settings;
   other.localizer.tolerance.leading_edge_mm = 0.11;
   ScriptedSource again(measured_points(50));
   EXPECT_EQ(run_to_end(other, again).error.fault, Fault::bad_input);
+}
+
+/// Two runs; 0 is one like any other.
+struct RunChange {
+  std::uint32_t from, to;
+};
+
+class BridgeHostRuns : public ::testing::TestWithParam<RunChange> {};
+
+INSTANTIATE_TEST_SUITE_P(All, BridgeHostRuns, ::testing::Values(RunChange{7, 9}, RunChange{0, 7}, RunChange{4, 0}));
+
+TEST_P(BridgeHostRuns, ASessionOfAnotherRunIsRefused) {
+  const ScratchFolder folder;
+  const HostSettings settings = settings_for(folder / "session");
+  ScriptedSource source(measured_points(50));
+  source.run_id = GetParam().from;
+  ASSERT_FALSE(run_to_end(settings, source).error);
   ScriptedSource another_run(measured_points(50));
-  another_run.run_id = 8;
+  another_run.run_id = GetParam().to;
   const SessionResult refused = run_to_end(settings, another_run);
   EXPECT_EQ(refused.error.fault, Fault::bad_input);
-  EXPECT_NE(refused.error.message.find("run 8"), std::string::npos) << refused.error.message;
+  const std::string told = "run " + std::to_string(GetParam().to);
+  EXPECT_NE(refused.error.message.find(told), std::string::npos) << refused.error.message;
+}
+
+TEST_P(BridgeHostRuns, ARunThatRestartsItsNumbersIsAFault) {
+  const ScratchFolder folder;
+  ScriptedSource source(measured_points(50));
+  source.stop_after = 20;
+  source.run_id = GetParam().from;
+  source.later_run_id = GetParam().to;
+  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  EXPECT_EQ(result.error.fault, Fault::device);
+  const std::string told = "started run " + std::to_string(GetParam().to);
+  EXPECT_NE(result.error.message.find(told), std::string::npos) << result.error.message;
+  EXPECT_EQ(result.points.size(), 20U);
 }
 
 TEST(BridgeHost, ASourceThatCannotBeOpenedLeavesNothingBehind) {
@@ -182,17 +213,6 @@ TEST(BridgeHost, ARecordThatIsNoNumberIsRefusedAndTheRestIsUnchanged) {
   const SessionResult result = run_to_end(settings_for(folder / "session"), source);
   EXPECT_EQ(result.refused, std::vector<std::uint32_t>{31});
   EXPECT_EQ(result.points.size(), 59U);
-}
-
-TEST(BridgeHost, ARunThatRestartsItsNumbersIsAFault) {
-  const ScratchFolder folder;
-  ScriptedSource source(measured_points(50));
-  source.stop_after = 20;
-  source.later_run_id = 9;
-  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
-  EXPECT_EQ(result.error.fault, Fault::device);
-  EXPECT_NE(result.error.message.find("run 9"), std::string::npos) << result.error.message;
-  EXPECT_EQ(result.points.size(), 20U);
 }
 
 TEST(BridgeHost, StopsWhenAskedWithAFullResult) {

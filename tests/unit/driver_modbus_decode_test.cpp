@@ -243,6 +243,9 @@ TEST(ModbusFrame, MatchesRepliesWithTheirRequest) {
   EXPECT_EQ(match({}, read), ReplyKind::foreign);
   EXPECT_EQ(match({0x84, 2}, read), ReplyKind::refused);
   EXPECT_NE(fault.find("Illegal data address"), std::string::npos) << fault;
+  EXPECT_EQ(match({0x84, 4}, read), ReplyKind::refused);
+  EXPECT_EQ(match({0x84, 5}, read), ReplyKind::busy);
+  EXPECT_EQ(match({0x84, 6}, read), ReplyKind::busy);
   EXPECT_EQ(match({16, 0, 0, 0, 2}, {16, 0, 2, {1, 2}}), ReplyKind::good);
   EXPECT_EQ(match({16, 0, 1, 0, 2}, {16, 0, 2, {1, 2}}), ReplyKind::foreign);
   EXPECT_EQ(match({6, 0, 2, 0, 3}, {6, 2, 1, {3}}), ReplyKind::good);

@@ -60,9 +60,28 @@ class Registers {
     inputs_[3] = static_cast<std::uint16_t>(newest);
   }
 
+  /// Refuses the next `count` requests of a function at register `first` or behind it.
+  void refuse(std::uint8_t function, std::uint8_t exception, int count, std::uint16_t first = 0) {
+    const std::lock_guard lock(mutex_);
+    refused_function_ = function;
+    exception_ = exception;
+    refusals_left_ = count;
+    first_refused_ = first;
+  }
+
+  [[nodiscard]] int refusals() {
+    const std::lock_guard lock(mutex_);
+    return refusals_;
+  }
+
   Bytes answer(const Bytes& pdu) {
     const std::lock_guard lock(mutex_);
     const std::uint16_t address = word_at(pdu, 1);
+    if (pdu[0] == refused_function_ && address >= first_refused_ && refusals_left_ > 0) {
+      --refusals_left_;
+      ++refusals_;
+      return {static_cast<std::uint8_t>(pdu[0] | 0x80U), exception_};
+    }
     const std::uint16_t count = word_at(pdu, 3);
     if (pdu[0] == 4) {
       if (address + count > inputs_.size()) return {0x84, 2};
@@ -83,6 +102,9 @@ class Registers {
   std::mutex mutex_;
   std::array<std::uint16_t, 100 + kCapacity * 20> inputs_{};
   std::array<std::uint16_t, 8> holdings_{};
+  std::uint8_t refused_function_ = 0, exception_ = 0;
+  std::uint16_t first_refused_ = 0;
+  int refusals_left_ = 0, refusals_ = 0;
 };
 
 /// What a server does with the next replies.

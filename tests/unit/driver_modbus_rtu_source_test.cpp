@@ -141,6 +141,23 @@ TEST(ModbusRtu, ToleratesASilenceWithoutReopening) {
   EXPECT_EQ(source->status().reconnects, 0U);
 }
 
+/// The pause between two frames alone is longer than a poll period: the header and a refused write are always due.
+TEST(ModbusRtu, ReadsRecordsOnASlowLine) {
+  RtuMachine machine;
+  SourceSettings settings = machine.settings();
+  settings.line.baud = 9600;
+  settings.modbus.reply_timeout = milliseconds(600);
+  settings.modbus.poll_period = std::chrono::microseconds(100);
+  const auto source = make_source(settings);
+  ASSERT_EQ(source->open(0, 0).message, "");
+  machine.registers.probe(9);
+  EXPECT_EQ(collect_checked(*source, 9), counted(1, 9));
+  machine.registers.refuse(16, 6, 100000);
+  source->acknowledge(9);
+  machine.registers.probe(16);
+  EXPECT_EQ(collect_checked(*source, 7), counted(10, 16));
+}
+
 TEST(ModbusRtuErrors, NameTheDeviceAndTheMend) {
   RtuMachine machine;
   const auto opened = [](const SourceSettings& settings) { return make_source(settings)->open(0, 0).message; };

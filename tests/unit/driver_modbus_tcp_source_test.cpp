@@ -1,110 +1,14 @@
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
-#include <atomic>
-#include <thread>
 
 #include "drivers/make_source.hpp"
-#include "tests/unit/driver_modbus_machine.hpp"
+#include "tests/unit/driver_modbus_tcp_machine.hpp"
 
 namespace bladefit {
 namespace {
 
 using std::chrono::milliseconds;
-
-/// A machine on 127.0.0.1 in a thread of its own, one client at a time.
-class TcpMachine {
- public:
-  TcpMachine() {
-    listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    ::bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
-    ::listen(listener_, 4);
-    socklen_t length = sizeof address;
-    ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &length);
-    port = ntohs(address.sin_port);
-    thread_ = std::thread([this] { serve(); });
-  }
-
-  ~TcpMachine() {
-    stop_ = true;
-    thread_.join();
-    ::close(listener_);
-  }
-
-  [[nodiscard]] SourceSettings settings() const {
-    SourceSettings settings;
-    settings.kind = SourceKind::modbus_tcp;
-    settings.tcp = {"127.0.0.1", port};
-    settings.modbus.reply_timeout = milliseconds(100);
-    return settings;
-  }
-
-  Registers registers;
-  std::uint16_t port = 0;
-  std::atomic<Mischief> mischief = Mischief::none;  ///< with the next reply only
-  std::atomic<bool> dumb = false;                   ///< no reply at all
-
- private:
-  static bool readable(int descriptor) {
-    pollfd entry{descriptor, POLLIN, 0};
-    return ::poll(&entry, 1, 5) > 0;
-  }
-
-  void serve() {
-    while (!stop_) {
-      if (!readable(listener_)) continue;
-      const int client = ::accept(listener_, nullptr, nullptr);
-      while (!stop_ && (!readable(client) || serve_one(client))) {
-      }
-      ::close(client);
-    }
-  }
-
-  bool serve_one(int client) {
-    Bytes frame(260);
-    const ssize_t size = ::recv(client, frame.data(), frame.size(), 0);
-    if (size < 12) return false;
-    frame.resize(static_cast<std::size_t>(size));
-    const Bytes pdu = registers.answer({frame.begin() + 7, frame.end()});
-    Bytes reply(frame.begin(), frame.begin() + 7);
-    reply[5] = static_cast<std::uint8_t>(pdu.size() + 1);
-    reply.insert(reply.end(), pdu.begin(), pdu.end());
-    if (dumb) return true;
-    switch (mischief.exchange(Mischief::none)) {
-      case Mischief::silent:
-        return true;
-      case Mischief::hang_up:
-        return false;
-      case Mischief::late:
-        std::this_thread::sleep_for(milliseconds(150));
-        break;
-      case Mischief::foreign_first: {
-        Bytes foreign = reply;
-        ++foreign[1];
-        ::send(client, foreign.data(), foreign.size(), MSG_NOSIGNAL);
-        break;
-      }
-      case Mischief::wrong_length:
-        reply[5] = 200;
-        break;
-      case Mischief::noise_first:
-      case Mischief::none:
-        break;
-    }
-    return ::send(client, reply.data(), reply.size(), MSG_NOSIGNAL) > 0;
-  }
-
-  int listener_ = -1;
-  std::atomic<bool> stop_ = false;
-  std::thread thread_;
-};
 
 TEST(ModbusTcp, StartsDeliversAcknowledgesAndStops) {
   TcpMachine machine;
@@ -131,7 +35,7 @@ TEST(ModbusTcp, GoesOnBehindWhatIsStored) {
   TcpMachine machine;
   machine.registers.probe(9);
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(7, 0).message, "");
+  ASSERT_EQ(source->open(7, 5).message, "");
   EXPECT_EQ(machine.registers.holding(1), 7);
   EXPECT_EQ(machine.registers.holding(2), 0) << "a device that is probing is left alone";
   EXPECT_EQ(collect_checked(*source, 2), counted(8, 9));
@@ -191,34 +95,61 @@ TEST(ModbusTcp, ReportsLostRecords) {
   EXPECT_GT(source->status().losses, 0U);
 }
 
+/// Two runs; 0 is one like any other.
+struct RunChange {
+  std::uint16_t from, to;
+};
+
+class ModbusTcpRuns : public testing::TestWithParam<RunChange> {};
+
+INSTANTIATE_TEST_SUITE_P(All, ModbusTcpRuns, testing::Values(RunChange{4, 5}, RunChange{5, 0}, RunChange{0, 7}));
+
 /// Nothing of the run that the device is in is stored: it is not told so, and its program is not stopped.
-TEST(ModbusTcp, LeavesADeviceInAnotherRunAlone) {
+TEST_P(ModbusTcpRuns, ADeviceInAnotherRunIsLeftAlone) {
   TcpMachine machine;
+  machine.registers.set(7, GetParam().to);
   machine.registers.probe(9);
   const auto source = make_source(machine.settings());
-  ASSERT_EQ(source->open(7, 4).message, "");
-  EXPECT_EQ(source->status().run_id, 5U);
+  ASSERT_EQ(source->open(7, GetParam().from).message, "");
+  EXPECT_EQ(source->status().run_id, GetParam().to);
   source->acknowledge(7);
   source->close();
   EXPECT_EQ(machine.registers.holding(1), 0);
   EXPECT_EQ(machine.registers.holding(2), 0);
 }
 
-TEST(ModbusTcp, StopsAtAnotherRun) {
+TEST_P(ModbusTcpRuns, AnotherRunStopsTheReading) {
   TcpMachine machine;
+  machine.registers.set(7, GetParam().from);
   machine.registers.probe(2);
   const auto source = make_source(machine.settings());
   ASSERT_EQ(source->open(0, 0).message, "");
   EXPECT_EQ(collect_checked(*source, 2), counted(1, 2));
-  machine.registers.set(7, 6);
+  machine.registers.set(7, GetParam().to);
   std::array<ProbePoint, 4> points;
   EXPECT_EQ(source->poll(points, milliseconds(50)), 0U);
-  EXPECT_EQ(source->status().run_id, 6U);
+  EXPECT_EQ(source->status().run_id, GetParam().to);
   EXPECT_NE(source->status().last_fault.find("another run"), std::string::npos);
   source->acknowledge(2);
   source->close();
   EXPECT_EQ(machine.registers.holding(1), 0) << "none of the other run's records is stored";
   EXPECT_EQ(machine.registers.holding(2), 1);
+}
+
+TEST_P(ModbusTcpRuns, TheRunThatTheStartHasBegunIsAcknowledged) {
+  TcpMachine machine;
+  machine.registers.set(7, GetParam().from);
+  const auto source = make_source(machine.settings());
+  ASSERT_EQ(source->open(0, 0).message, "");
+  machine.registers.set(7, GetParam().to);
+  std::array<ProbePoint, 4> points;
+  EXPECT_EQ(source->poll(points, milliseconds(50)), 0U);
+  machine.registers.probe(2);
+  EXPECT_EQ(collect_checked(*source, 2), counted(1, 2));
+  EXPECT_EQ(source->poll(points, milliseconds(50)), 0U);
+  source->acknowledge(2);
+  EXPECT_EQ(source->poll(points, milliseconds(50)), 0U);
+  EXPECT_EQ(machine.registers.holding(1), 2);
 }
 
 TEST(ModbusTcpErrors, NameTheDeviceAndTheMend) {

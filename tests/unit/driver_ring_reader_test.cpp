@@ -137,6 +137,32 @@ TEST(RingReader, TakesTheOverflowBitForAGap) {
   EXPECT_GT(bench.status.losses, 0U);
 }
 
+TEST(RingReader, TakesEveryOverflowForALossOfItsOwn) {
+  Bench bench;
+  const auto overflow = [&bench](int headers) {
+    for (int look = 0; look < headers; ++look) bench.show(1, 2 | 8);
+  };
+  overflow(5);
+  EXPECT_EQ(bench.status.losses, 1U) << "the bit stays set";
+  bench.show(1);
+  overflow(5);
+  EXPECT_EQ(bench.status.losses, 1U) << "one header alone may be an older one";
+  for (int look = 0; look < 2; ++look) bench.show(1);
+  overflow(1);
+  EXPECT_EQ(bench.status.losses, 1U);
+  overflow(1);
+  EXPECT_EQ(bench.status.losses, 2U);
+}
+
+TEST(RingReader, ALossOfAnotherKindDoesNotHideAnOverflow) {
+  Bench bench;
+  for (int look = 0; look < 2; ++look) bench.show(20);
+  EXPECT_EQ(bench.status.losses, 1U);
+  for (int look = 0; look < 2; ++look) bench.show(20, 2 | 8);
+  EXPECT_EQ(bench.status.losses, 2U);
+  EXPECT_NE(bench.status.last_loss.find("overflow"), std::string::npos) << bench.status.last_loss;
+}
+
 TEST(RingReader, FinishesWhenThreeHeadersSaySoAndAllIsDelivered) {
   Bench bench;
   bench.show(2, 16);

@@ -20,8 +20,8 @@ struct Bench {
   SerialSession session{settings, status};
   SerialSession::Clock::time_point now = SerialSession::Clock::time_point{} + std::chrono::hours(1);
 
-  explicit Bench(std::uint32_t after = 0) {
-    session.restart(after);
+  explicit Bench(std::uint32_t after = 0, std::uint32_t run_id = 3) {
+    session.restart(after, run_id);
     session.link_made(now);
   }
 
@@ -171,6 +171,35 @@ TEST(SerialSession, StopsWhenTheNumberingHasRestarted) {
   bench.point(2);
   EXPECT_EQ(bench.take(), (Sequences{1}));
   EXPECT_FALSE(bench.session.finished());
+}
+
+TEST(SerialSession, TakesRunZeroForARunLikeAnyOther) {
+  for (const auto& [before, now] : {std::pair{0U, 7U}, {4U, 0U}}) {
+    Bench going;
+    going.hear("RUN," + std::to_string(before));
+    going.point(1);
+    going.hear("RUN," + std::to_string(now));
+    EXPECT_TRUE(going.session.stopped());
+    Bench resumed(30, before);
+    resumed.hear("RUN," + std::to_string(now));
+    EXPECT_TRUE(resumed.session.stopped());
+    EXPECT_EQ(resumed.status.run_id, now);
+    EXPECT_EQ(resumed.sent(), "START,31");
+  }
+}
+
+TEST(SerialSession, FinishesWithoutPointsWhenToldSo) {
+  Bench bench;
+  bench.hear("RUN,1");
+  static_cast<void>(bench.sent());
+  EXPECT_FALSE(bench.session.finished());
+  bench.hear("END,0");
+  EXPECT_TRUE(bench.session.finished());
+  EXPECT_FALSE(bench.session.behind());
+  bench.wait(1000);
+  EXPECT_EQ(bench.sent(), "") << "there is nothing to be asked for";
+  bench.point(1);
+  EXPECT_FALSE(bench.session.finished()) << "probing goes on";
 }
 
 TEST(SerialSession, GivesUpARecordThatTheDeviceDoesNotSend) {

@@ -82,13 +82,13 @@ SourceSettings serial_settings(const Cable& cable) {
   return settings;
 }
 
-/// Opens while the machine answers the start.
-std::string open_answered(ProbeSource& source, const Cable& cable) {
+/// Opens while the machine, which is in run 3, answers the start.
+std::string open_answered(ProbeSource& source, const Cable& cable, std::uint32_t after = 0, std::uint32_t run_id = 0) {
   std::thread machine([&cable] {
     std::this_thread::sleep_for(milliseconds(20));
     cable.write(encode_line("RUN,3"));
   });
-  std::string message = source.open(0, 0).message;
+  std::string message = source.open(after, run_id).message;
   machine.join();
   return message;
 }
@@ -118,6 +118,19 @@ TEST(SerialSource, TalksWithTheMachine) {
   });
   source->close();
   machine.join();
+}
+
+/// Nothing of the run that the device is in is stored: it is not told so, and its program is not stopped.
+TEST(SerialSource, LeavesADeviceInAnotherRunAlone) {
+  const Cable cable;
+  const auto source = make_source(serial_settings(cable));
+  ASSERT_EQ(open_answered(*source, cable, 30, 0), "");
+  EXPECT_EQ(source->status().run_id, 3U);
+  source->acknowledge(30);
+  source->close();
+  const std::string sent = cable.read();
+  EXPECT_EQ(sent.find("$ACK"), std::string::npos) << sent;
+  EXPECT_EQ(sent.find("$STOP"), std::string::npos) << sent;
 }
 
 TEST(SerialSource, ComesBackAfterTheCableWasPulled) {
@@ -189,10 +202,13 @@ TEST(DroSource, NumbersItsPoints) {
   EXPECT_EQ(source->status().losses, 0U) << "the first line may have been cut when the port was opened";
   cable.write("X 1 Y ? Z 4\nX 1 Y 2 Z 5\n" + std::string(400, 'X') + "\n");
   EXPECT_EQ(collect(*source, 1), (Sequences{8}));
-  EXPECT_GT(source->status().losses, 0U);
+  const std::uint64_t losses = source->status().losses;
+  EXPECT_GT(losses, 0U);
   EXPECT_NE(source->status().last_fault.find("probe the point again"), std::string::npos);
   cable.pull();
   static_cast<void>(collect(*source, 1, milliseconds(50)));
+  EXPECT_EQ(source->status().losses, losses + 1);
+  EXPECT_NE(source->status().last_loss.find("while the port is down"), std::string::npos) << source->status().last_loss;
   EXPECT_EQ(source->status().link, LinkState::lost);
   cable.plug_in();
   static_cast<void>(collect(*source, 1, milliseconds(200)));
