@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/design_fixtures.hpp"
@@ -60,8 +61,11 @@ RC_GTEST_PROP(SplineFit, InterpolatesWhereItCan, ()) {
   const auto parameters = even_parameters(points.size());
   const auto fitted = fit_spline(direction, parameters, points);
   RC_ASSERT(fitted.has_value());
+  // Even parameters are a poor choice for high degrees: control points become large, and rounding with them.
+  long double size = 1;
+  for (const auto& point : *fitted) size = std::max(size, point.norm());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    RC_ASSERT((point_at(direction, *fitted, parameters[k]) - points[k]).norm() < 1e-13L);
+    RC_ASSERT((point_at(direction, *fitted, parameters[k]) - points[k]).norm() < 1e-17L * size);
   }
 }
 
