@@ -4,14 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit/cross_matrix.hpp"
+
 namespace bladefit {
 namespace {
-
-Mat3 cross_matrix(const Vec3& w) {
-  Mat3 m;
-  m << 0.0, -w[2], w[1], w[2], 0.0, -w[0], -w[1], w[0], 0.0;
-  return m;
-}
 
 /// One Newton step towards the nearest orthogonal matrix: the error is squared, so one is enough from rounding level.
 Mat3 orthogonalised(const Mat3& m) { return m * (1.5 * Mat3::Identity() - 0.5 * (m.transpose() * m)); }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/fit/cholesky.hpp"
+#include "core/fit/cross_matrix.hpp"
 
 namespace bladefit {
 namespace {
@@ -99,11 +100,9 @@ Mat6 unit_covariance(const QuadraticModel& model, const Determination& determina
 Mat6 pose_covariance(const Mat6& covariance_of_x, const Pose& pose, const MotionFrame& frame) {
   // w = x_w / L; dt = s + w x (t - pivot).
   const Vec3 arm = pose.translation - frame.pivot;
-  Mat3 cross;
-  cross << 0.0, arm[2], -arm[1], -arm[2], 0.0, arm[0], arm[1], -arm[0], 0.0;
   Mat6 map = Mat6::Identity();
   map.topLeftCorner<3, 3>() /= frame.length;
-  map.bottomLeftCorner<3, 3>() = cross / frame.length;
+  map.bottomLeftCorner<3, 3>() = -cross_matrix(arm) / frame.length;
   return map * covariance_of_x * map.transpose();
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fit/cross_matrix.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -80,12 +82,6 @@ void add_rotation_bend(const Vec3& n, const Vec3& arm, double length, Mat6& bend
     for (int j = 0; j < 3; ++j) bend(i, j) += 0.5 * f * (n[i] * arm[j] + arm[i] * n[j]);
     bend(i, i) -= f * n.dot(arm);
   }
-}
-
-Mat3 cross_matrix(const Vec3& a) {
-  Mat3 m;
-  m << 0.0, -a[2], a[1], a[2], 0.0, -a[0], -a[1], a[0], 0.0;
-  return m;
 }
 
 /// dx / dy at y = 0 of the motion x followed by a motion y: exp([y]x) exp([w]x) = exp([w + Jl^-1 y]x), s' = exp([y]x) s

@@ -100,28 +100,26 @@ TEST(CoreInterleaving, AResetLocalizerHasTheBitsOfANewOne) {
   }
 }
 
+/// Points that wait for the end of a sweep to be taken anew in every push are in no sums of that sweep.
 TEST(CoreInterleaving, PointsStagedBetweenPushesLeaveNoneOut) {
-  const ReferenceCase c = read_case("pnsy_sub");
-  const CompiledDesign& design = reference_design("pnsy_sub");
-  const std::vector<ProbePoint> points = thinned(c, 0, 13);
-  OwnedLocalizer stream(design.image(), config_of(c, points.size()));
-  std::mt19937_64 random(386);
-  std::uint32_t expected = 0;
-  for (const ProbePoint& point : points) {
-    if (random() % 3 == 0) {
-      ASSERT_EQ(stream->stage(point), Status::ok);
-    } else {
+  for (const char* name : {"arl_fan", "dtmb4119", "pnsy_sub"}) {
+    const ReferenceCase c = read_case(name);
+    const CompiledDesign& design = reference_design(name);
+    const std::vector<ProbePoint> points = thinned(c, 0, 5);
+    LocalizerConfig config = config_of(c, points.size());
+    config.edges = EdgePolicy::use;
+    OwnedLocalizer stream(design.image(), config);
+    std::mt19937_64 random(386);
+    std::uint32_t expected = 0;
+    for (const ProbePoint& point : points) {
       Verdict verdict;
-      ASSERT_TRUE(succeeded(stream->push(point, verdict)));
+      if (random() % 20 == 0) {
+        ASSERT_EQ(stream->stage(point), Status::ok);
+      } else {
+        ASSERT_TRUE(succeeded(stream->push(point, verdict)));
+      }
+      ASSERT_EQ(stream->fit().fitted, ++expected) << name;
     }
-    ++expected;
-    std::uint32_t left_out = 0;
-    Verdict verdict;
-    for (std::uint32_t k = 0; k < expected; ++k) {
-      ASSERT_EQ(stream->verdict_of(points[k].sequence, verdict), Status::ok);
-      left_out += verdict.foot.kind != FootKind::interior ? 1 : 0;
-    }
-    ASSERT_EQ(stream->fit().fitted + left_out, expected);
   }
 }
 
