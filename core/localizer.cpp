@@ -23,11 +23,6 @@ constexpr std::uint32_t kLeastFitted = 12;
 /// refresh this many times the points: the expansions are worn out.
 constexpr double kWornBeyond = 5e-4;
 constexpr std::uint32_t kCatchUp = 8;
-/// Rivals of a foot are sought up to this much farther [half diagonals], so that it can be tracked for half as long.
-constexpr double kSearchMargin = 2e-3;
-/// A point may be drawn over an edge where it counts, and back where it does not. Left out so often, it stays out.
-constexpr std::uint8_t kMostExits = 4;
-
 /// Where addresses have 32 bits, a large capacity needs more than that.
 constexpr std::uint64_t kMoreThanThereIs = std::numeric_limits<std::size_t>::max() - 4096;
 
@@ -146,31 +141,6 @@ Status Localizer::check(const ProbePoint& point) const {
   return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
 }
 
-Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& pose, Search search) const {
-  Measurement m;
-  m.r = apply(pose, point.position);
-  ProjectionQuery query{m.r, pose.rotation * point.approach};
-  m.projection = project_local(surface_, m.r, {point.span, point.foot.u, point.foot.v});
-  const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
-                        !faces_probe(surface_, m.projection, query.approach);
-  // Distances change by no more than the point moves, so within half its lead no rival that was there can have come
-  // nearer than the tracked foot. A newborn one could: refine() ends with a search of every foot.
-  const bool far = search == Search::past_lead && 2.0 * (m.r - point.searched_at).norm() >= point.lead;
-  if (doubtful || far || search == Search::always) {
-    if (search == Search::past_lead) query.margin = kSearchMargin * frame_.length;
-    const GlobalProjection global = project_global(surface_, query, &m.projection);
-    // Newton's method does not end on a crease of the surface: there it is the foot of before that is found again.
-    const Vec3& before = m.projection.converged ? m.projection.at.s : point.foot.point;
-    m.changed = (global.nearest.at.s - before).norm() > 1e-8 * frame_.length;
-    m.projection = global.nearest;
-    m.searched = true;
-    m.lead = global.lead;
-    m.proven = global.proven;
-  }
-  m.foot = foot_of(surface_, m.projection, config_.probe_radius_mm);
-  return m;
-}
-
 StoredPoint Localizer::made_from(const ProbePoint& point, const SurfacePlace& start) const {
   StoredPoint stored;
   stored.position = to_vec3(point.position);
@@ -182,19 +152,6 @@ StoredPoint Localizer::made_from(const ProbePoint& point, const SurfacePlace& st
   stored.foot.v = start.v;
   stored.outside_window = outside_window(stored);
   return stored;
-}
-
-bool Localizer::outside_window(const StoredPoint& point) const {
-  if (config_.window_low <= 0.0 && config_.window_high >= 1.0) return false;
-  const Foot foot = measure(point, config_.start, Search::always).foot;
-  const auto outside = [this](double t) { return t < config_.window_low || t > config_.window_high; };
-  return outside(foot.u) || outside(foot.v);
-}
-
-bool Localizer::left_out(const StoredPoint& point, const Foot& foot) const {
-  if (regions_held_) return point.held_out;
-  return point.outside_window || (exits_count_ && point.exits >= kMostExits) ||
-         (foot.kind != FootKind::interior && config_.edges == EdgePolicy::skip);
 }
 
 Status Localizer::push(const ProbePoint& point, Verdict& verdict) {

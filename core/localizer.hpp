@@ -5,10 +5,10 @@
 
 #include "core/fit/bound_tracker.hpp"
 #include "core/fit/bounded_fit.hpp"
-#include "core/fit/further_starts.hpp"
 #include "core/fit/loss.hpp"
 #include "core/fit/pose.hpp"
 #include "core/fit/pose_solver.hpp"
+#include "core/fit/refinement.hpp"
 #include "core/fit/stored_point.hpp"
 #include "core/geometry/design_image.hpp"
 #include "core/geometry/global_projection.hpp"
@@ -160,23 +160,10 @@ class Localizer {
     Foot foot;
     Vec3 r = Vec3::Zero();
     bool searched = false;  ///< the foot is the outcome of a global search
-    double lead = 0;        ///< of that search [mm]
-    bool changed = false;   ///< it found another local minimum than the one tracked
-    bool proven = true;     ///< false: the search met its cap
-  };
-  struct Refinement {
-    bool active = false;
-    bool thorough = false;  ///< every foot of this sweep is searched globally
-    bool bounded = false;   ///< beyond least squares: bounded_ moves the pose
-    std::uint32_t sweeps = 0, changed = 0, unproven = 0;
-    std::uint32_t rounds = 0;  ///< in which regions followed the feet, or the scale of the loss the distances
-    double last_value = 0;     ///< sum 1/2 d^2 of the sweep before
-    std::uint32_t last_count = 0;
-    Pose last_pose;
-    Vec6 last_step = Vec6::Zero();
-    Pose rows_pose;        ///< of the sweep before
-    double travelled = 0;  ///< from there to that of this sweep [mm]
-    FurtherStarts further;
+    bool changed = false;   ///< of that search, or its rival has become the nearer: not the local minimum tracked
+    bool ranked = false;    ///< `rivals` are those of this place: it was searched, or weighed against its rival
+    Rivals rivals;
+    bool proven = true;  ///< false: the search met its cap
   };
 
   [[nodiscard]] Status check(const ProbePoint& point) const;
@@ -189,6 +176,8 @@ class Localizer {
     always
   };
   [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose, Search search) const;
+  [[nodiscard]] bool same_foot(const Vec3& a, const Vec3& b) const;
+  [[nodiscard]] bool weigh_rival(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const;
   [[nodiscard]] Search sweep_search(const StoredPoint& point) const;
   [[nodiscard]] StoredPoint made_from(const ProbePoint& point, const SurfacePlace& start) const;
   void stage(const StoredPoint& passing, Search search);

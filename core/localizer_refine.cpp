@@ -28,7 +28,7 @@ void Localizer::begin_sweep() {
 
 /// Points that were staged from a place are tracked until the last sweep: their lead is infinite.
 Localizer::Search Localizer::sweep_search(const StoredPoint& point) const {
-  const bool travels = refinement_.travelled > kTravelsBeyond * frame_.length && std::isfinite(point.lead);
+  const bool travels = refinement_.travelled > kTravelsBeyond * frame_.length && std::isfinite(point.rivals.lead);
   return refinement_.thorough || travels ? Search::always : Search::if_doubtful;
 }
 

@@ -14,7 +14,7 @@ constexpr std::uint32_t kPlacesLookedAt = 64;
 
 }  // namespace
 
-bool Localizer::contested(const StoredPoint& point) const { return point.lead < kContestedLead * frame_.length; }
+bool Localizer::contested(const StoredPoint& point) const { return point.rivals.lead < kContestedLead * frame_.length; }
 
 void Localizer::include(FitSums& sums, const StoredPoint& point, const Measurement& m, const Vec6& x) const {
   if (left_out(point, m.foot)) return;
@@ -32,10 +32,10 @@ void Localizer::note(StoredPoint& point, const Measurement& m) {
   point.foot = m.foot;
   point.span = m.projection.place.span;
   point.revision = revision_;
-  if (!m.searched) return;
-  ++searches_;
-  point.searched_at = m.r;
-  point.lead = m.lead;
+  if (m.searched) ++searches_;
+  if (!m.ranked) return;
+  point.ranked_at = m.r;
+  point.rivals = m.rivals;
 }
 
 void Localizer::count_in(const StoredPoint& point, const Measurement& m) {

@@ -23,7 +23,7 @@ Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start)
   if (const Status status = check(point); status != Status::ok) return status;
   if (stored_ == config_.capacity || !on_design(surface_, start)) return Status::out_of_range;
   StoredPoint passing = made_from(point, start);
-  passing.lead = std::numeric_limits<double>::infinity();  // no motion makes the foot doubtful
+  passing.rivals.lead = std::numeric_limits<double>::infinity();  // no motion makes the foot doubtful
   stage(passing, Search::if_doubtful);
   return Status::ok;
 }

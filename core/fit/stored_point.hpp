@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/fit/quadratic_model.hpp"
+#include "core/geometry/global_projection.hpp"
 #include "core/inspection/verdict.hpp"
 
 namespace bladefit {
@@ -10,11 +11,11 @@ namespace bladefit {
 /// A point that keeps its place in the localizer's memory.
 struct StoredPoint {
   Vec3 position = Vec3::Zero(), approach = Vec3::Zero();  ///< machine coordinates
-  Vec3 searched_at = Vec3::Zero();  ///< where it stood [design coordinates] when its foot was last searched globally
-  double weight = 1;                ///< in the least-squares objective
-  double lead = 0;                  ///< how much farther every other local minimum was there [mm]
-  Foot foot;                        ///< at the pose it was last projected at
-  std::uint32_t span = 0;           ///< of the foot
+  Vec3 ranked_at = Vec3::Zero();  ///< where it stood [design coordinates] when it was last known which foot is nearest
+  double weight = 1;              ///< in the least-squares objective
+  Rivals rivals;                  ///< there
+  Foot foot;                      ///< at the pose it was last projected at
+  std::uint32_t span = 0;         ///< of the foot
   std::uint32_t sequence = 0, revision = 0;
   double tolerance = 0, uncertainty = 0;
   Region region = Region::rest;

@@ -10,13 +10,23 @@ struct ProjectionQuery {
   double margin = 0;             ///< rivals are sought up to this much farther than the nearest [mm]
 };
 
+/// The local minima that are hardly farther than the nearest. One that does not face the probe, but almost, is among
+/// them.
+struct Rivals {
+  /// No other is nearer than this much beyond the nearest; at most query.margin [mm]. While the point moves by less
+  /// than half of it, the local minimum it is tracked to stays the nearest.
+  double lead = 0;
+  /// None but the one at `place` is, so one of the two stays the nearest for half of this; at most a quarter of
+  /// query.margin [mm].
+  double lead_of_two = 0;
+  SurfacePlace place;  ///< of the next nearest, where lead < lead_of_two
+};
+
 struct GlobalProjection {
   Projection nearest;
   bool proven = false;  ///< false: the cap on pieces was reached; `nearest` is the best found
   bool faces = true;    ///< false: no local minimum faces the probe, so `nearest` is the nearest of all
-  /// No other local minimum (that faces the probe) is nearer than this much beyond the nearest; at most query.margin
-  /// [mm]. While the point moves by less than half of it, the local minimum it is tracked to stays the nearest.
-  double lead = 0;
+  Rivals rivals;
   std::uint32_t pieces = 0;  ///< pieces of leaves that were looked at, where their bounds did not suffice
   bool exhausted = false;    ///< a cap was reached
 };

@@ -5,7 +5,7 @@
 
 namespace bladefit {
 
-/// The nearest of the local minima a global search has met, and the distance of its nearest rival.
+/// The nearest of the local minima a global search has met, its nearest rival and the distance of the next.
 class NearestSoFar {
  public:
   NearestSoFar(const Surface& surface, const ProjectionQuery& query);
@@ -26,13 +26,17 @@ class NearestSoFar {
   [[nodiscard]] GlobalProjection result(bool exhausted, std::uint32_t pieces) const;
 
  private:
+  void note_rival(const Projection& candidate, double distance);
+  [[nodiscard]] bool same(const Vec3& a, const Vec3& b) const;
   static constexpr double kNowhere = std::numeric_limits<double>::infinity();
   const Surface& surface_;
   const Vec3& approach_;
   double margin_, slack_;
   bool directed_, found_ = false, has_resort_ = false;
-  double distance_ = 0.0, rival_ = kNowhere;
+  double distance_ = 0.0, rival_distance_ = kNowhere, third_distance_ = kNowhere;
   Projection nearest_;
+  Vec3 rival_ = Vec3::Zero();  ///< on the surface
+  SurfacePlace rival_place_;
   Projection resort_;  ///< the nearest place that is not a proper minimum
 };
 

@@ -147,4 +147,21 @@ inline QueryPoint random_query_point(const Surface& surface, std::mt19937_64& ra
   }
 }
 
+/// A place between two random ones where the nearest point jumps.
+inline Vec3 equally_near_to_two(const Surface& surface, std::mt19937_64& random) {
+  const double size = surface.half_diagonal();
+  const auto foot_of = [&](const Vec3& r) { return project_global(surface, {r}, nullptr).nearest.at.s; };
+  for (;;) {
+    Vec3 a = random_query_point(surface, random).r, b = random_query_point(surface, random).r;
+    Vec3 foot_a = foot_of(a), foot_b = foot_of(b);
+    while ((a - b).norm() > 1e-7 * size) {
+      const Vec3 middle = 0.5 * (a + b), foot = foot_of(middle);
+      const bool nearer_a = (foot - foot_a).norm() < (foot - foot_b).norm();
+      (nearer_a ? a : b) = middle;
+      (nearer_a ? foot_a : foot_b) = foot;
+    }
+    if ((foot_a - foot_b).norm() > 1e-3 * size) return a;
+  }
+}
+
 }  // namespace bladefit::testing

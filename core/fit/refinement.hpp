@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+
+#include "core/fit/further_starts.hpp"
+#include "core/fit/pose.hpp"
+
+namespace bladefit {
+
+/// Where a fit over all stored points stands.
+struct Refinement {
+  bool active = false;
+  bool thorough = false;  ///< every foot of this sweep is searched globally
+  bool bounded = false;   ///< beyond least squares: the mode's programs move the pose
+  std::uint32_t sweeps = 0, changed = 0, unproven = 0;
+  std::uint32_t rounds = 0;  ///< in which regions followed the feet, or the scale of the loss the distances
+  double last_value = 0;     ///< sum 1/2 d^2 of the sweep before
+  std::uint32_t last_count = 0;
+  Pose last_pose;
+  Vec6 last_step = Vec6::Zero();
+  Pose rows_pose;        ///< of the sweep before
+  double travelled = 0;  ///< from there to that of this sweep [mm]
+  FurtherStarts further;
+};
+
+}  // namespace bladefit
