@@ -75,7 +75,7 @@ bool bounds_valid(const ImageBounds& b) {
                       [](double l, double h) { return std::isfinite(l) && std::isfinite(h) && l <= h; });
   };
   bool valid = finite3(b.middle) && finite3(b.stretch) && b.stretch[0] > 0.0 && b.stretch[1] != 0.0 &&
-               rises(b.low, b.high, 3) && rises(b.self_low, b.self_high, 5);
+               rises(b.low, b.high, 3) && rises(b.self_low, b.self_high, 7);
   for (const auto& axis : b.axis) valid = valid && finite3(axis);
   for (const auto& derivative : b.derivative) valid = valid && finite3(derivative);
   for (const auto& spread : b.spread) valid = valid && finite3(spread) && *std::min_element(spread, spread + 3) >= 0.0;

@@ -12,7 +12,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 4;
+inline constexpr std::uint32_t kImageVersion = 5;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -62,16 +62,18 @@ struct ImageSpan {
 /// points. Vectors are in the frame of `axis`, whose first row is the normal in the middle.
 /// First derivatives are along the rectangle's own parameters s, t in 0..1. Second derivatives are along a, b, linear
 /// in s and t, with Sa = stretch[0] Ss and Sb = stretch[1] St + stretch[2] Ss, which are orthonormal in the middle:
-/// there the Hessian of a squared distance is near to the unit matrix. Order: s, t, aa, ab, bb.
+/// there the Hessian of a squared distance is near to the unit matrix. Across: along the unit vectors that are
+/// perpendicular in the middle to the sides of constant s and of constant t. Order: s, t, aa, ab, bb, across s, across
+/// t.
 struct ImageBounds {
   double middle[3];         ///< c, in design coordinates [mm]
   double axis[3][3];        ///< orthonormal, one a row
   double low[3], high[3];   ///< axis[k] . (S - c) lies between these [mm]
   double stretch[3];        ///< [1/mm]
-  double derivative[5][3];  ///< of S, in the middle [mm, mm, 1/mm ...]
-  double spread[5][3];      ///< no component of a derivative is farther from that in the middle
-  double self_low[5];       ///< the same derivatives of 1/2 |S - c|^2 lie between these [mm^2, mm^2, 1 ...]
-  double self_high[5];
+  double derivative[7][3];  ///< of S, in the middle [mm, mm, 1/mm ...]
+  double spread[7][3];      ///< no component of a derivative is farther from that in the middle
+  double self_low[7];       ///< the same derivatives of 1/2 |S - c|^2 lie between these [mm^2, mm^2, 1 ...]
+  double self_high[7];
 };
 
 /// A rectangle of a span, so small that its bounds tell most. The leaves of a span tile it.
@@ -94,7 +96,7 @@ struct ImageNode {
 };
 
 static_assert(sizeof(ImageHeader) == 168 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 &&
-              sizeof(ImageBounds) == 488 && sizeof(ImageLeaf) == 528 && sizeof(ImageNode) == 112);
+              sizeof(ImageBounds) == 616 && sizeof(ImageLeaf) == 656 && sizeof(ImageNode) == 112);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.
 [[nodiscard]] std::uint32_t image_crc(std::span<const std::byte> image);

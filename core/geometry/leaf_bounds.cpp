@@ -7,6 +7,12 @@ namespace bladefit {
 namespace {
 
 double dot(const double (&a)[3], const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+ValueRange range_of(const ImageBounds& bounds, int k, const Vec3& w, const Vec3& magnitude) {
+  const double middle = dot(bounds.derivative[k], w), spread = dot(bounds.spread[k], magnitude);
+  return {bounds.self_low[k] - middle - spread, bounds.self_high[k] - middle + spread};
+}
+
 }  // namespace
 
 Vec3 in_frame(const ImageBounds& bounds, const Vec3& r) {
@@ -25,11 +31,17 @@ double least_distance(const ImageBounds& bounds, const Vec3& w) {
 
 DerivativeRanges derivative_ranges(const ImageBounds& bounds, const Vec3& w) {
   const Vec3 magnitude = w.cwiseAbs();
-  const auto range = [&](int k) {
-    const double middle = dot(bounds.derivative[k], w), spread = dot(bounds.spread[k], magnitude);
-    return ValueRange{bounds.self_low[k] - middle - spread, bounds.self_high[k] - middle + spread};
-  };
+  const auto range = [&](int k) { return range_of(bounds, k, w, magnitude); };
   return {range(0), range(1), range(2), range(3), range(4)};
+}
+
+bool slopes_across(const ImageBounds& bounds, const Vec3& w) {
+  const Vec3 magnitude = w.cwiseAbs();
+  for (const int k : {5, 6}) {
+    const ValueRange slope = range_of(bounds, k, w, magnitude);
+    if (slope.least > 0.0 || slope.most < 0.0) return true;
+  }
+  return false;
 }
 
 DerivativeRanges ranges_along_t(const ImageBounds& bounds, const DerivativeRanges& ranges) {

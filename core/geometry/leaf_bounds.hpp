@@ -15,6 +15,10 @@ namespace bladefit {
 /// 1/2 |w|^2 - w . (S - c) + 1/2 |S - c|^2. Exact up to the spreads, so tight near the surface. Cost: ten dot products.
 [[nodiscard]] DerivativeRanges derivative_ranges(const ImageBounds& bounds, const Vec3& w);
 
+/// The distance from `w` (in its frame) has no stationary point on the leaf: it rises everywhere, or falls, across the
+/// sides of constant s or those of constant t. Cost: four dot products.
+[[nodiscard]] bool slopes_across(const ImageBounds& bounds, const Vec3& w);
+
 /// The ranges for a side of the leaf along t, where the second derivative counts along t and not along b: tt, scaled,
 /// in place of bb.
 [[nodiscard]] DerivativeRanges ranges_along_t(const ImageBounds& bounds, const DerivativeRanges& ranges);

@@ -26,21 +26,27 @@ struct PieceRange {
   std::array<IntervalVector, 5> derivative;
 };
 
+/// Those of the bounds: s, t, aa, ab, bb, across s, across t.
+constexpr std::size_t kDerivatives = 7;
+template <class Value>
+using Derivatives = std::array<Value, kDerivatives>;
+
 constexpr Interval kNothing{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
-/// A piece of a span: its net, moved to an origin of its own, and its size in the span's parameters.
+/// A piece of a span: its net in the frame of the leaf, moved to an origin of its own.
 class Piece {
  public:
-  Piece(const BezierSpan& span, const LocalRect& rect) {
+  Piece(const BezierSpan& span, const LocalRect& rect, const ImageBounds& leaf) {
     restrict_net(span.net, span.degree_u, span.degree_v, rect, net_);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(&leaf.axis[0][0]);
     const Homogeneous& corner = net_.at(net_.degree_u / 2, net_.degree_v / 2);
-    origin_ = corner.head<3>() / corner[3];
-    for (std::uint32_t k = 0; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k)
-      net_.points[k].head<3>() -= net_.points[k][3] * origin_.array();
+    const Vec3 origin = corner.head<3>() / corner[3];
+    for (std::uint32_t k = 0; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k) {
+      const Vec3 arm = Vec3(net_.points[k].head<3>()) - net_.points[k][3] * origin;
+      net_.points[k].head<3>() = axes * arm;
+    }
+    origin_ = axes * (origin - Vec3(leaf.middle));
   }
-
-  [[nodiscard]] const Vec3& origin() const { return origin_; }
-  [[nodiscard]] const BezierNet& net() const { return net_; }
 
   /// Control values of the derivative of order (along_u, along_v): differences, times the factor of the degrees.
   [[nodiscard]] HomogeneousRange derivative(std::uint32_t along_u, std::uint32_t along_v) const {
@@ -71,21 +77,21 @@ class Piece {
     return {{Interval{low[0], high[0]}, {low[1], high[1]}, {low[2], high[2]}}, {low[3], high[3]}};
   }
 
-  /// S - origin: inside the hull of the control points.
-  [[nodiscard]] IntervalVector place() const {
-    IntervalVector range{kNothing, kNothing, kNothing};
+  /// (S - origin) . direction: between those of the control points.
+  [[nodiscard]] Interval extent(const Vec3& direction) const {
+    Interval range = kNothing;
     for (std::uint32_t k = 0; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double coordinate = net_.points[k][static_cast<Eigen::Index>(axis)] / net_.points[k][3];
-        range[axis].include({coordinate, coordinate});
-      }
+      const double along = direction.dot(Vec3(net_.points[k].head<3>())) / net_.points[k][3];
+      range.include({along, along});
     }
     return range;
   }
 
+  [[nodiscard]] const Vec3& origin() const { return origin_; }
+
  private:
   BezierNet net_;
-  Vec3 origin_;
+  Vec3 origin_;  ///< from the middle of the leaf
 };
 
 /// Quotient rule on A / w with intervals; small because A is taken about the piece's own origin.
@@ -94,7 +100,7 @@ PieceRange range_of(const Piece& piece) {
                          ss = piece.derivative(2, 0), st = piece.derivative(1, 1), tt = piece.derivative(0, 2);
   const Interval over = inverse(value.weight);
   PieceRange out;
-  out.place = piece.place();
+  out.place = {piece.extent(Vec3::UnitX()), piece.extent(Vec3::UnitY()), piece.extent(Vec3::UnitZ())};
   if (value.weight.low == value.weight.high) {
     out.derivative = {over * s.place, over * t.place, over * ss.place, over * st.place, over * tt.place};
     return out;
@@ -108,27 +114,30 @@ PieceRange range_of(const Piece& piece) {
   return out;
 }
 
-IntervalVector in_frame(const double (&axis)[3][3], const IntervalVector& a) {
-  IntervalVector out;
-  for (std::size_t k = 0; k < 3; ++k) out[k] = axis[k][0] * a[0] + axis[k][1] * a[1] + axis[k][2] * a[2];
-  return out;
-}
+/// The unit vector across the sides of constant s in the middle: along_s * Ss + along_t * St. That across those of
+/// constant t is Sb.
+struct AcrossS {
+  double along_s, along_t;
+  explicit AcrossS(const SurfacePoint& middle) {
+    const double square = middle.s_v.squaredNorm(), share = square > 0.0 ? middle.s_u.dot(middle.s_v) / square : 0.0;
+    const double length = (middle.s_u - share * middle.s_v).norm();
+    along_s = length > 0.0 ? 1.0 / length : 1.0;
+    along_t = -share * along_s;
+  }
+};
 
-/// The derivatives aa, ab, bb from ss, st, tt.
-std::array<IntervalVector, 3> stretched(const double (&stretch)[3], const IntervalVector& ss, const IntervalVector& st,
-                                        const IntervalVector& tt) {
+/// The derivatives of the bounds from s, t, ss, st, tt. `Value`: an interval or a vector.
+template <class Value>
+Derivatives<Value> stretched(const double (&stretch)[3], const AcrossS& across, const std::array<Value, 5>& d) {
   const double alpha = stretch[0], beta = stretch[1], gamma = stretch[2];
-  return {(alpha * alpha) * ss, (alpha * beta) * st + (alpha * gamma) * ss,
-          (beta * beta) * tt + (2.0 * beta * gamma) * st + (gamma * gamma) * ss};
-}
-
-/// Derivatives s, t, aa, ab, bb of 1/2 |S - c|^2 from S - c and the derivatives of S.
-std::array<Interval, 5> self_range(const double (&stretch)[3], const IntervalVector& arm,
-                                   const std::array<IntervalVector, 5>& d) {
-  const IntervalVector along_a = stretch[0] * d[0];
-  const IntervalVector along_b = stretch[1] * d[1] + stretch[2] * d[0];
-  return {dot(arm, d[0]), dot(arm, d[1]), square_sum(along_a) + dot(arm, d[2]), dot(along_a, along_b) + dot(arm, d[3]),
-          square_sum(along_b) + dot(arm, d[4])};
+  const auto& [s, t, ss, st, tt] = d;
+  return {s,
+          t,
+          (alpha * alpha) * ss,
+          (alpha * beta) * st + (alpha * gamma) * ss,
+          (beta * beta) * tt + (2.0 * beta * gamma) * st + (gamma * gamma) * ss,
+          across.along_s * s + across.along_t * t,
+          beta * t + gamma * s};
 }
 
 /// The frame: normal, direction of Ss, and the third; the coordinate axes where the parametrisation is degenerate.
@@ -154,53 +163,76 @@ void set_frame(const SurfacePoint& middle, ImageBounds& bounds) {
 
 void set_middle(const SurfacePoint& middle, ImageBounds& bounds) {
   set_frame(middle, bounds);
-  const double alpha = bounds.stretch[0], beta = bounds.stretch[1], gamma = bounds.stretch[2];
-  const Vec3 derivatives[5] = {
-      middle.s_u, middle.s_v, alpha * alpha * middle.s_uu, alpha * beta * middle.s_uv + alpha * gamma * middle.s_uu,
-      beta * beta * middle.s_vv + 2.0 * beta * gamma * middle.s_uv + gamma * gamma * middle.s_uu};
+  const Derivatives<Vec3> derivatives =
+      stretched<Vec3>(bounds.stretch, AcrossS(middle), {middle.s_u, middle.s_v, middle.s_uu, middle.s_uv, middle.s_vv});
   for (int k = 0; k < 3; ++k) {
     bounds.middle[k] = middle.s[k];
     bounds.low[k] = kNothing.low;
     bounds.high[k] = kNothing.high;
-    for (int d = 0; d < 5; ++d) {
+    for (std::size_t d = 0; d < kDerivatives; ++d) {
       bounds.derivative[d][k] = Vec3(bounds.axis[k]).dot(derivatives[d]);
       bounds.spread[d][k] = 0.0;
     }
   }
-  for (int d = 0; d < 5; ++d) {
+  for (std::size_t d = 0; d < kDerivatives; ++d) {
     bounds.self_low[d] = kNothing.low;
     bounds.self_high[d] = kNothing.high;
   }
 }
 
-void include_box(const Piece& piece, const Vec3& middle, ImageBounds& bounds) {
-  const Vec3 shift = piece.origin() - middle;
-  for (std::uint32_t n = 0; n < (piece.net().degree_u + 1) * (piece.net().degree_v + 1); ++n) {
-    const Homogeneous& point = piece.net().points[n];
-    const Vec3 arm = Vec3(point.head<3>() / point[3]) + shift;
-    for (int k = 0; k < 3; ++k) {
-      const double along = Vec3(bounds.axis[k]).dot(arm);
-      bounds.low[k] = std::min(bounds.low[k], along);
-      bounds.high[k] = std::max(bounds.high[k], along);
-    }
+/// A first derivative as a multiple of which it is that in the middle along the latter: where one is at right angles
+/// to something, so is the other, and how fast the parameters run is out of it. As it was where that is not so.
+IntervalVector turned(const IntervalVector& derivative, const Vec3& middle) {
+  const Eigen::Matrix3d frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), middle).toRotationMatrix();
+  const auto along = [&](Eigen::Index axis) {
+    Interval sum;
+    for (std::size_t k = 0; k < 3; ++k) sum = sum + frame(static_cast<Eigen::Index>(k), axis) * derivative[k];
+    return sum;
+  };
+  const Interval speed = along(0);
+  if (!(speed.low > 0.0)) return derivative;
+  const double length = middle.norm();
+  const Interval over = length * inverse(speed), first = over * along(1), second = over * along(2);
+  IntervalVector out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    out[k] = frame(axis, 1) * first + frame(axis, 2) * second + middle[axis];
   }
+  return out;
 }
 
-void include_piece(const Piece& piece, ImageBounds& bounds) {
-  const Vec3 middle(bounds.middle);
-  include_box(piece, middle, bounds);
+/// The derivatives of 1/2 |S - c|^2 over a piece, whose derivatives of S are `range`. (S - c) . D is that with D as in
+/// the middle, which the control points bound well, and the little that D differs.
+Derivatives<Interval> self_range(const Piece& piece, const ImageBounds& bounds, const IntervalVector& arm,
+                                 const Derivatives<IntervalVector>& range) {
+  Derivatives<Interval> self;
+  for (std::size_t d = 0; d < kDerivatives; ++d) {
+    const Vec3 middle(bounds.derivative[d]);
+    IntervalVector beyond = range[d];
+    for (std::size_t k = 0; k < 3; ++k) beyond[k] = beyond[k] + -middle[static_cast<Eigen::Index>(k)];
+    self[d] = piece.extent(middle) + middle.dot(piece.origin()) + dot(arm, beyond);
+  }
+  return self;
+}
+
+void include_piece(const Piece& piece, const AcrossS& across, ImageBounds& bounds) {
   PieceRange range = range_of(piece);
-  const Vec3 shift = piece.origin() - middle;
-  for (std::size_t k = 0; k < 3; ++k) range.place[k] = range.place[k] + shift[static_cast<Eigen::Index>(k)];
-  const IntervalVector arm = in_frame(bounds.axis, range.place);
-  for (IntervalVector& derivative : range.derivative) derivative = in_frame(bounds.axis, derivative);
-  const std::array<IntervalVector, 3> second =
-      stretched(bounds.stretch, range.derivative[2], range.derivative[3], range.derivative[4]);
-  std::copy(second.begin(), second.end(), range.derivative.begin() + 2);
-  const std::array<Interval, 5> self = self_range(bounds.stretch, arm, range.derivative);
-  for (std::size_t d = 0; d < 5; ++d) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    range.place[k] = range.place[k] + piece.origin()[static_cast<Eigen::Index>(k)];
+    bounds.low[k] = std::min(bounds.low[k], range.place[k].low);
+    bounds.high[k] = std::max(bounds.high[k], range.place[k].high);
+  }
+  Derivatives<IntervalVector> derivatives = stretched(bounds.stretch, across, range.derivative);
+  const Interval aa = square_sum(bounds.stretch[0] * derivatives[0]), bb = square_sum(derivatives[6]),
+                 ab = dot(bounds.stretch[0] * derivatives[0], derivatives[6]);
+  for (const std::size_t d : {0, 1, 5, 6}) derivatives[d] = turned(derivatives[d], Vec3(bounds.derivative[d]));
+  Derivatives<Interval> self = self_range(piece, bounds, range.place, derivatives);
+  self[2] = self[2] + aa;
+  self[3] = self[3] + ab;
+  self[4] = self[4] + bb;
+  for (std::size_t d = 0; d < kDerivatives; ++d) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const double farthest = (range.derivative[d][k] + -bounds.derivative[d][k]).magnitude();
+      const double farthest = (derivatives[d][k] + -bounds.derivative[d][k]).magnitude();
       bounds.spread[d][k] = std::max(bounds.spread[d][k], farthest);
     }
     bounds.self_low[d] = std::min(bounds.self_low[d], self[d].low);
@@ -223,16 +255,17 @@ ImageBounds leaf_bounds(const BezierSpan& span, const LocalRect& rect) {
   HomogeneousDerivatives h;
   evaluate_taylor(span.taylor, span.degree_u, span.degree_v, at_s(0.5) - 0.5, at_t(0.5) - 0.5, h);
   ImageBounds bounds;
-  set_middle(scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min), bounds);
+  const SurfacePoint middle = scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min);
+  set_middle(middle, bounds);
   const auto piece = [&](int i, int j) {
     const double d = 1.0 / kPieces;
-    return Piece(span, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)});
+    return Piece(span, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)}, bounds);
   };
-  for (int k = 0; k < kPieces * kPieces; ++k) include_piece(piece(k / kPieces, k % kPieces), bounds);
+  for (int k = 0; k < kPieces * kPieces; ++k) include_piece(piece(k / kPieces, k % kPieces), AcrossS(middle), bounds);
   double size = Vec3(bounds.middle).norm();
   for (int k = 0; k < 3; ++k) size += bounds.high[k] - bounds.low[k];
   widen(bounds.low, bounds.high, kWidening * size);
-  for (int d = 0; d < 5; ++d) {
+  for (std::size_t d = 0; d < kDerivatives; ++d) {
     const double derivative = Vec3(bounds.derivative[d]).norm();
     for (double& spread : bounds.spread[d]) spread += kWidening * (derivative + spread);
     const double by = kWidening * (size * derivative + std::abs(bounds.self_low[d]) + std::abs(bounds.self_high[d]));
