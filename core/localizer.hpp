@@ -6,12 +6,12 @@
 #include "core/fit/bound_tracker.hpp"
 #include "core/fit/bounded_fit.hpp"
 #include "core/fit/loss.hpp"
+#include "core/fit/measurement.hpp"
 #include "core/fit/pose.hpp"
 #include "core/fit/pose_solver.hpp"
 #include "core/fit/refinement.hpp"
 #include "core/fit/stored_point.hpp"
 #include "core/geometry/design_image.hpp"
-#include "core/geometry/global_projection.hpp"
 #include "core/inspection/tolerance_map.hpp"
 #include "core/inspection/verdict.hpp"
 #include "core/probe_point.hpp"
@@ -155,16 +155,6 @@ class Localizer {
   static constexpr std::uint32_t kFreshPlaces = 16;
   /// Start poses are assumed right to within this [half diagonals] when a direction is not determined yet.
   static constexpr double kStartUncertainty = 0.01;
-  struct Measurement {
-    Projection projection;
-    Foot foot;
-    Vec3 r = Vec3::Zero();
-    bool searched = false;  ///< the foot is the outcome of a global search
-    bool changed = false;   ///< of that search, or its rival has become the nearer: not the local minimum tracked
-    bool ranked = false;    ///< `rivals` are those of this place: it was searched, or weighed against its rival
-    Rivals rivals;
-    bool proven = true;  ///< false: the search met its cap
-  };
 
   [[nodiscard]] Status check(const ProbePoint& point) const;
   [[nodiscard]] bool outside_window(const StoredPoint& point) const;
@@ -176,6 +166,12 @@ class Localizer {
     always
   };
   [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose, Search search) const;
+  void track(LaneBlock& block, std::span<const std::uint32_t> indices, const Vec6& x) const;
+  [[nodiscard]] Measurement measure(const LaneBlock& block, std::uint32_t lane, Search search) const;
+  void examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const;
+  [[nodiscard]] DistanceRow row_of(const Measurement& m, const Vec6& x) const;
+  void add_row(FitSums& sums, const StoredPoint& point, const Measurement& m, const DistanceRow& row,
+               const Vec6& x) const;
   [[nodiscard]] bool same_foot(const Vec3& a, const Vec3& b) const;
   [[nodiscard]] bool weigh_rival(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const;
   [[nodiscard]] Search sweep_search(const StoredPoint& point) const;
@@ -202,7 +198,8 @@ class Localizer {
   void begin_sweep();
   void refresh(std::uint32_t budget);
   double solve();
-  [[nodiscard]] bool visit_next(Status& status);
+  [[nodiscard]] bool visit_next(std::uint32_t count, Status& status);
+  void visit(const Measurement& measurement);
   [[nodiscard]] bool finish_refine_sweep(Status& status);
   [[nodiscard]] bool retreat();
   [[nodiscard]] Status least_squares_step();
@@ -238,7 +235,7 @@ class Localizer {
   [[nodiscard]] bool go_elsewhere();
   [[nodiscard]] FitMode sought_mode() const;
   [[nodiscard]] double assign_regions();
-  void include_row(std::uint32_t index, const Measurement& measurement);
+  void include_row(std::uint32_t index, const DistanceRow& row);
   void find_determined(const Vec6& x);
   [[nodiscard]] Verdict verdict_from(const StoredPoint& point) const;
   void queue_revision(std::uint32_t index);
@@ -246,6 +243,7 @@ class Localizer {
   Surface surface_;
   LocalizerConfig config_;
   MotionFrame frame_;
+  bool lanes_ = lanes_at_hand();
   Pose pose_;
   FitSums settled_;  ///< all points but the fresh ones
   FitSums

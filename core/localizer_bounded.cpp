@@ -63,11 +63,11 @@ void Localizer::begin_bounded(FitMode mode) {
   r.sweeps = 0;
 }
 
-void Localizer::include_row(std::uint32_t index, const Measurement& m) {
-  if (left_out(points_[index], m.foot) || bounded_.weight(index) == 0.0) {
+void Localizer::include_row(std::uint32_t index, const DistanceRow& row) {
+  if (bounded_.weight(index) == 0.0) {
     bounded_.skip_row(index);
   } else {
-    bounded_.set_row(index, distance_row(m.projection, m.foot, m.r, Vec6::Zero(), frame_));
+    bounded_.set_row(index, row);
   }
 }
 

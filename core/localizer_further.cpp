@@ -71,7 +71,12 @@ void Localizer::begin_start() {
 /// Projects the next point of a start's sweep; every foot is searched globally. True when the refinement is over.
 bool Localizer::visit_from_start(Status& status) {
   FurtherStarts& f = refinement_.further;
-  include_row(cursor_, measure(points_[cursor_], f.pose, Search::always));
+  const Measurement m = measure(points_[cursor_], f.pose, Search::always);
+  if (left_out(points_[cursor_], m.foot)) {
+    bounded_.skip_row(cursor_);
+  } else {
+    include_row(cursor_, row_of(m, Vec6::Zero()));
+  }
   ++searches_;
   cursor_ += f.stride;
   if (cursor_ < stored_) return false;

@@ -15,11 +15,18 @@ constexpr std::uint8_t kMostExits = 4;
 
 }  // namespace
 
-Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& pose, Search search) const {
+Measurement Localizer::measure(const StoredPoint& point, const Pose& pose, Search search) const {
   Measurement m;
   m.r = apply(pose, point.position);
-  ProjectionQuery query{m.r, pose.rotation * point.approach};
   m.projection = project_local(surface_, m.r, {point.span, point.foot.u, point.foot.v});
+  examine(point, pose, search, m);
+  m.foot = foot_of(surface_, m.projection, config_.probe_radius_mm);
+  return m;
+}
+
+/// Whether the projection that a point was tracked to is its nearest: where that is in doubt, the design is searched.
+void Localizer::examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const {
+  ProjectionQuery query{m.r, pose.rotation * point.approach};
   const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
                         !faces_probe(surface_, m.projection, query.approach);
   // Distances change by no more than the point moves, so within half its lead no rival that was there can have come
@@ -37,8 +44,6 @@ Localizer::Measurement Localizer::measure(const StoredPoint& point, const Pose& 
     m.rivals = global.rivals;
     m.proven = global.proven;
   }
-  m.foot = foot_of(surface_, m.projection, config_.probe_radius_mm);
-  return m;
 }
 
 bool Localizer::same_foot(const Vec3& a, const Vec3& b) const { return (a - b).norm() <= kSameFoot * frame_.length; }

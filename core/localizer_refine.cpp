@@ -80,18 +80,32 @@ bool Localizer::finish_refine_sweep(Status& status) {
   return status != Status::more_work;
 }
 
-/// Projects the next point of the sweep. True when the refinement is over.
-bool Localizer::visit_next(Status& status) {
-  const Measurement m = measure(points_[cursor_], pose_, sweep_search(points_[cursor_]));
+/// Projects the next points of the sweep, at most kLanes. True when the refinement is over.
+bool Localizer::visit_next(std::uint32_t count, Status& status) {
+  std::array<std::uint32_t, kLanes> indices{};
+  for (std::uint32_t k = 0; k < count; ++k) indices[k] = cursor_ + k;
+  LaneBlock block;
+  track(block, {indices.data(), count}, Vec6::Zero());
+  for (std::uint32_t k = 0; k < count; ++k) visit(measure(block, k, sweep_search(points_[cursor_])));
+  return cursor_ == stored_ && finish_refine_sweep(status);
+}
+
+/// Takes in the point of the sweep that was measured.
+void Localizer::visit(const Measurement& m) {
   if (m.changed) ++refinement_.changed;
   if (!m.proven) ++refinement_.unproven;
   StoredPoint& point = points_[cursor_];
   const bool exits = !left_out(point, point.foot) && left_out(point, m.foot);
   if (exits && point.exits < UINT8_MAX) ++point.exits;
   note(point, m);
-  include(filling_, point, m, Vec6::Zero());
-  if (refinement_.bounded) include_row(cursor_, m);
-  return ++cursor_ == stored_ && finish_refine_sweep(status);
+  if (left_out(point, m.foot)) {
+    if (refinement_.bounded) bounded_.skip_row(cursor_);
+  } else {
+    const DistanceRow row = row_of(m, Vec6::Zero());
+    add_row(filling_, point, m, row, Vec6::Zero());
+    if (refinement_.bounded) include_row(cursor_, row);
+  }
+  ++cursor_;
 }
 
 Status Localizer::refine(std::uint32_t max_points) {
@@ -115,8 +129,10 @@ Status Localizer::refine(std::uint32_t max_points) {
     begin_sweep();
   }
   Status status = Status::more_work;
-  for (std::uint32_t k = 0; k < max_points; ++k) {
-    if (!(refinement_.further.active ? visit_from_start(status) : visit_next(status))) continue;
+  for (std::uint32_t visited = 0, count = 0; visited < max_points; visited += count) {
+    const bool further = refinement_.further.active;
+    count = further ? 1 : std::min<std::uint32_t>({kLanes, max_points - visited, stored_ - cursor_});
+    if (!(further ? visit_from_start(status) : visit_next(count, status))) continue;
     refinement_.active = false;
     for (std::uint32_t i = 0; i < stored_; ++i) rejudge(i);
     if (status == Status::ok && config_.mode != FitMode::least_squares) begin_trackers(1);

@@ -17,9 +17,13 @@ constexpr std::uint32_t kPlacesLookedAt = 64;
 bool Localizer::contested(const StoredPoint& point) const { return point.rivals.lead < kContestedLead * frame_.length; }
 
 void Localizer::include(FitSums& sums, const StoredPoint& point, const Measurement& m, const Vec6& x) const {
-  if (left_out(point, m.foot)) return;
+  if (!left_out(point, m.foot)) add_row(sums, point, m, row_of(m, x), x);
+}
+
+void Localizer::add_row(FitSums& sums, const StoredPoint& point, const Measurement& m, const DistanceRow& row,
+                        const Vec6& x) const {
   const LossTerms terms = loss_terms(loss_, loss_scale_, m.foot.distance);
-  sums.model.add(distance_row(m.projection, m.foot, m.r, x, frame_), x, point.weight, terms);
+  sums.model.add(row, x, point.weight, terms);
   const Region region = regions_held_ ? point.region : region_at(config_.tolerance, m.foot.patch, m.foot.u, m.foot.v);
   sums.regions[static_cast<std::size_t>(region)].add(m.foot.distance, point.sequence);
 }
@@ -136,15 +140,20 @@ void Localizer::settle_all() {
 void Localizer::gather(const Measurement& newest) {
   current_ = settled_;
   const Vec6 x = motion_between(current_.model.reference, pose_, frame_);
-  for (std::uint32_t k = 0; k < active_count_; ++k) {
-    StoredPoint& point = points_[fresh_[k]];
-    if (point.sequence == last_sequence_) {
-      include(current_, point, newest, x);
-      continue;
+  for (std::uint32_t first = 0; first < active_count_; first += kLanes) {
+    const std::uint32_t count = std::min<std::uint32_t>(kLanes, active_count_ - first);
+    LaneBlock block;
+    track(block, {fresh_.data() + first, count}, x);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      StoredPoint& point = points_[fresh_[first + k]];
+      if (point.sequence == last_sequence_) {
+        include(current_, point, newest, x);
+        continue;
+      }
+      const Measurement m = measure(block, k, Search::past_lead);
+      review(fresh_[first + k], m);
+      include(current_, point, m, x);
     }
-    const Measurement m = measure(point, pose_, Search::past_lead);
-    review(fresh_[k], m);
-    include(current_, point, m, x);
   }
 }
 
@@ -164,15 +173,24 @@ void Localizer::rejudge(std::uint32_t index) {
 /// Projects up to `budget` more settled points anew; at the end of the sweep the new sums take the place of the old.
 void Localizer::refresh(std::uint32_t budget) {
   const Vec6 x = motion_between(filling_.model.reference, pose_, frame_);
-  for (std::uint32_t k = 0; k < budget && cursor_ < stored_; ++k, ++cursor_) {
-    StoredPoint& point = points_[cursor_];
-    if (point.fresh) continue;
-    const Measurement m = measure(point, pose_, Search::past_lead);
-    review(cursor_, m);
-    if (contested(point) && fresh_count_ + kNewest < kFreshPlaces) {
-      make_fresh(cursor_);  // its old row is still in the sums in use: it becomes active when they are given up
-    } else {
-      include(filling_, point, m, x);
+  const std::uint32_t end = cursor_ + std::min(budget, stored_ - cursor_);
+  while (cursor_ < end) {
+    std::array<std::uint32_t, kLanes> indices{};
+    std::uint32_t count = 0;
+    for (; cursor_ < end && count < kLanes; ++cursor_) {
+      if (!points_[cursor_].fresh) indices[count++] = cursor_;
+    }
+    LaneBlock block;
+    track(block, {indices.data(), count}, x);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t index = indices[k];
+      const Measurement m = measure(block, k, Search::past_lead);
+      review(index, m);
+      if (contested(points_[index]) && fresh_count_ + kNewest < kFreshPlaces) {
+        make_fresh(index);  // its old row is still in the sums in use: it becomes active when they are given up
+      } else {
+        include(filling_, points_[index], m, x);
+      }
     }
   }
   if (cursor_ < stored_) return;

@@ -117,8 +117,7 @@ bool Localizer::follow(BoundTracker& tracker) {
       if (left_out(point, m.foot) || weight == 0.0) {
         tracker.skip_row(place);
       } else {
-        const DistanceRow row = distance_row(m.projection, m.foot, m.r, Vec6::Zero(), frame_);
-        tracker.set_row(place, row, weight, basis);
+        tracker.set_row(place, row_of(m, Vec6::Zero()), weight, basis);
       }
     }
     if (!tracker.step(shifted(current_.model, pose, frame_), frame_, config_.start, config_.locked)) return false;

@@ -124,6 +124,7 @@ DistanceRow distance_row(const Projection& projection, const Foot& foot, const V
     add_curve_bend(projection, foot.normal, lever, row.bend);
   }
   add_rotation_bend(foot.normal, lever.arm(), frame.length, row.bend);
+  row.bend.triangularView<Eigen::StrictlyLower>() = row.bend.transpose();
   return row;
 }
 
