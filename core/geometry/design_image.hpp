@@ -60,11 +60,12 @@ struct ImageSpan {
 
 /// Bounds of a rectangle of a span about its middle c: what lets most of them be judged without looking at control
 /// points. Vectors are in the frame of `axis`, whose first row is the normal in the middle.
-/// First derivatives are along the rectangle's own parameters s, t in 0..1. Second derivatives are along a, b, linear
-/// in s and t, with Sa = stretch[0] Ss and Sb = stretch[1] St + stretch[2] Ss, which are orthonormal in the middle:
-/// there the Hessian of a squared distance is near to the unit matrix. Across: along the unit vectors that are
-/// perpendicular in the middle to the sides of constant s and of constant t. Order: s, t, aa, ab, bb, across s, across
-/// t.
+/// First derivatives are along the rectangle's own parameters s, t in 0..1, and across its sides: along the unit
+/// vectors that are perpendicular in the middle to the sides of constant s and of constant t. Their signs are what
+/// counts, so they are taken as such positive multiples that along themselves they stay what they are in the middle:
+/// only how they turn is in their spread. Second derivatives are along a, b, linear in s and t, with Sa = stretch[0] Ss
+/// and Sb = stretch[1] St + stretch[2] Ss, which are orthonormal in the middle: there the Hessian of a squared distance
+/// is near to the unit matrix. Order: s, t, aa, ab, bb, across s, across t.
 struct ImageBounds {
   double middle[3];         ///< c, in design coordinates [mm]
   double axis[3][3];        ///< orthonormal, one a row

@@ -12,7 +12,8 @@ namespace bladefit {
 [[nodiscard]] double least_distance(const ImageBounds& bounds, const Vec3& w);
 
 /// Ranges over the leaf of the derivatives s, t, aa, ab, bb of half the squared distance from `w` (in its frame):
-/// 1/2 |w|^2 - w . (S - c) + 1/2 |S - c|^2. Exact up to the spreads, so tight near the surface. Cost: ten dot products.
+/// 1/2 |w|^2 - w . (S - c) + 1/2 |S - c|^2, the first two times a positive factor. Exact up to the spreads, so tight
+/// near the surface. Cost: ten dot products.
 [[nodiscard]] DerivativeRanges derivative_ranges(const ImageBounds& bounds, const Vec3& w);
 
 /// The distance from `w` (in its frame) has no stationary point on the leaf: it rises everywhere, or falls, across the

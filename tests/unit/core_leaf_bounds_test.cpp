@@ -14,14 +14,19 @@ namespace {
 
 class LeafBounds : public ::testing::TestWithParam<std::string> {};
 
-/// The derivatives of 1/2 |r - S|^2 in the order of ImageBounds, at (s, t) of the leaf.
-std::array<double, 5> derivatives(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, double s, double t) {
+/// The surface at (s, t) of the leaf, with derivatives in these.
+SurfacePoint at(const Surface& surface, const ImageLeaf& leaf, double s, double t) {
   const SpanDomain d = surface.domain(leaf.span);
   const double across_u = (leaf.s_max - leaf.s_min) * (d.u_max - d.u_min);
   const double across_v = (leaf.t_max - leaf.t_min) * (d.v_max - d.v_min);
   const double u = d.u_min + (leaf.s_min + s * (leaf.s_max - leaf.s_min)) * (d.u_max - d.u_min);
   const double v = d.v_min + (leaf.t_min + t * (leaf.t_max - leaf.t_min)) * (d.v_max - d.v_min);
-  const SurfacePoint p = scaled(surface.evaluate({leaf.span, u, v}), across_u, across_v);
+  return scaled(surface.evaluate({leaf.span, u, v}), across_u, across_v);
+}
+
+/// The derivatives s, t, aa, ab, bb of 1/2 |r - S|^2 there.
+std::array<double, 5> derivatives(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, double s, double t) {
+  const SurfacePoint p = at(surface, leaf, s, t);
   const Vec3 e = p.s - r;
   const double ss = p.s_u.squaredNorm() + e.dot(p.s_uu), st = p.s_u.dot(p.s_v) + e.dot(p.s_uv),
                tt = p.s_v.squaredNorm() + e.dot(p.s_vv);
@@ -30,12 +35,22 @@ std::array<double, 5> derivatives(const Surface& surface, const ImageLeaf& leaf,
           beta * beta * tt + 2.0 * beta * gamma * st + gamma * gamma * ss};
 }
 
+/// Slopes of 1/2 |r - S|^2 across the sides of constant s and of constant t.
+std::array<double, 2> slopes(const ImageLeaf& leaf, const SurfacePoint& middle, const std::array<double, 5>& found) {
+  const Vec3 across = middle.s_u - middle.s_u.dot(middle.s_v) / middle.s_v.squaredNorm() * middle.s_v;
+  const double along_t = -middle.s_u.dot(middle.s_v) / middle.s_v.squaredNorm();
+  return {(found[0] + along_t * found[1]) / across.norm(),
+          leaf.bounds.stretch[1] * found[1] + leaf.bounds.stretch[2] * found[0]};
+}
+
 void check_leaf(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, std::mt19937_64& random) {
   const Vec3 w = in_frame(leaf.bounds, r);
   const DerivativeRanges ranges = derivative_ranges(leaf.bounds, w);
   const double least = least_distance(leaf.bounds, w);
   const std::array<ValueRange, 5> expected{ranges.u, ranges.v, ranges.uu, ranges.uv, ranges.vv};
   const SpanDomain d = surface.domain(leaf.span);
+  const SurfacePoint middle = at(surface, leaf, 0.5, 0.5);
+  std::array<bool, 2> rises{true, true}, falls{true, true};
   for (int k = 0; k < 20; ++k) {
     // Corners and sides, where bounds are reached, come up often.
     const auto parameter = [&] { return std::clamp(uniform(random, -0.3, 1.3), 0.0, 1.0); };
@@ -46,7 +61,14 @@ void check_leaf(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, st
     const ValueRange tt = ranges_along_t(leaf.bounds, ranges).vv;
     RC_ASSERT(along_t >= tt.least - 1e-10 * (std::abs(tt.least) + std::abs(tt.most)));
     RC_ASSERT(along_t <= tt.most + 1e-10 * (std::abs(tt.least) + std::abs(tt.most)));
-    for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double slope = slopes(leaf, middle, found)[i];
+      rises[i] = rises[i] && slope > 0.0;
+      falls[i] = falls[i] && slope < 0.0;
+      RC_ASSERT(!(expected[i].least > 0.0 && found[i] <= 0.0));
+      RC_ASSERT(!(expected[i].most < 0.0 && found[i] >= 0.0));
+    }
+    for (std::size_t i = 2; i < 5; ++i) {
       const double rounding = 1e-10 * (std::abs(expected[i].least) + std::abs(expected[i].most));
       RC_ASSERT(found[i] >= expected[i].least - rounding);
       RC_ASSERT(found[i] <= expected[i].most + rounding);
@@ -55,6 +77,7 @@ void check_leaf(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, st
     const double v = d.v_min + (leaf.t_min + t * (leaf.t_max - leaf.t_min)) * (d.v_max - d.v_min);
     RC_ASSERT((r - surface.evaluate({leaf.span, u, v}).s).norm() >= least * (1.0 - 1e-12) - 1e-12);
   }
+  if (slopes_across(leaf.bounds, w)) RC_ASSERT(rises[0] || falls[0] || rises[1] || falls[1]);
 }
 
 TEST_P(LeafBounds, HoldEverySample) {
@@ -66,6 +89,29 @@ TEST_P(LeafBounds, HoldEverySample) {
     const double off = design.size() * std::exp2(-uniform(random, 0, 20));
     check_leaf(design.surface(), leaf, Vec3(leaf.bounds.middle) + off * random_direction_in_space(random), random);
   }));
+}
+
+/// What the slopes are for: leaves of other spans whose boxes are nearer than the foot.
+TEST_P(LeafBounds, SlopesRuleOutLeavesBesideAFoot) {
+  const CompiledDesign& design = reference_design(GetParam());
+  const auto leaves = design.image().leaves();
+  std::mt19937_64 random(8);
+  int beside = 0, left = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const SurfacePlace place = random_place(design.surface(), random);
+    const SurfacePoint p = design.surface().evaluate(place);
+    const double off = uniform(random, 0, 3e-3) * design.size();
+    const Vec3 r = p.s + off * design.surface().normal(place, p);
+    for (const ImageLeaf& leaf : leaves) {
+      const Vec3 w = in_frame(leaf.bounds, r);
+      if (leaf.span == place.span || least_distance(leaf.bounds, w) >= off) continue;
+      ++beside;
+      left += slopes_across(leaf.bounds, w) ? 0 : 1;
+    }
+  }
+  RecordProperty("left_share", std::to_string(static_cast<double>(left) / beside));
+  EXPECT_GT(beside, 100);
+  EXPECT_LT(left, beside * 9 / 10);
 }
 
 /// What they are for: a point near the surface is told by bounds alone, nearly always.
