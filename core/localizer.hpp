@@ -243,7 +243,6 @@ class Localizer {
   Surface surface_;
   LocalizerConfig config_;
   MotionFrame frame_;
-  bool lanes_ = lanes_at_hand();
   Pose pose_;
   FitSums settled_;  ///< all points but the fresh ones
   FitSums

@@ -3,16 +3,14 @@
 #include <cstdint>
 
 #include "core/geometry/global_projection.hpp"
-#include "core/lanes/lanes.hpp"
+#include "core/geometry/lane_projection.hpp"
 
 namespace bladefit {
 
 /// Stored points that are tracked at once, one a lane, with the rows of those that end on a smooth foot.
 struct LaneBlock {
   std::array<std::uint32_t, kLanes> index{};  ///< of the stored points
-  std::array<bool, kLanes> tracked{};         ///< false: this point is to be tracked by itself
-  std::array<SurfacePlace, kLanes> place;     ///< of the feet
-  LaneWalk walk;
+  LaneProjections feet;
   LaneRows rows;
 };
 
