@@ -4,100 +4,24 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/distance_quadratic.hpp"
+#include "core/geometry/span_newton.hpp"
+#include "core/lanes/lanes.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr int kMaxSteps = 12;
 /// Spans that pure Newton steps may lead through.
 constexpr int kMaxSpans = 8;
 
-/// A foot sought inside one span, in its parameters x = s - 1/2, y = t - 1/2.
-struct SpanTask {
-  const double* taylor = nullptr;
-  std::uint32_t degree_u = 0, degree_v = 0;
-  Vec3 r = Vec3::Zero();
-  double x_min = -0.5, x_max = 0.5, y_min = -0.5, y_max = 0.5;
-  double last_step = 0;  ///< a step [mm] that is not longer is the last: Newton's error is then far under rounding
-  double slack = 0;      ///< a distance may rise by this much as rounding [mm]
-
-  [[nodiscard]] bool holds(double x, double y) const { return x >= x_min && x <= x_max && y >= y_min && y <= y_max; }
-};
-
-enum class SpanEnd : std::uint8_t {
-  converged,  ///< at a local minimum
-  left,       ///< the next step leaves the limits
-  stuck       ///< the squared distance is not convex here, did not fall, or steps were used up
-};
-
-struct SpanFoot {
-  double x = 0, y = 0;            ///< where the distance was last seen to fall
-  double next_x = 0, next_y = 0;  ///< where the step went that left the limits
-  double distance_squared = 0;    ///< at (x, y) [mm^2]; given: not to be exceeded
-  bool moved = false;             ///< (x, y) was evaluated: false where even the start was too far off
-  SurfacePoint at;                ///< converged: the surface at (x, y), derivatives in x and y
-};
-
-[[gnu::always_inline]] inline double dot(const Homogeneous& a, const Homogeneous& b) {
-  const Homogeneous c = a * b;
-  return c[0] + c[1] + c[2];
-}
-
-/// The last step, by the derivatives at hand.
-void finish(const HomogeneousDerivatives& h, double dx, double dy, SpanFoot& foot) {
-  const Homogeneous s = h.a + dx * h.a_u + dy * h.a_v;
-  const Homogeneous s_u = h.a_u + dx * h.a_uu + dy * h.a_uv;
-  const Homogeneous s_v = h.a_v + dx * h.a_uv + dy * h.a_vv;
-  foot.at = {s.head<3>(), s_u.head<3>(), s_v.head<3>(), h.a_uu.head<3>(), h.a_uv.head<3>(), h.a_vv.head<3>()};
-}
-
-/// Rounding may let a squared distance rise by a little.
-[[gnu::always_inline]] inline bool rises(double square, double before, double slack) {
-  return square > before && square > before + slack * (std::sqrt(before) + slack);
-}
-
-/// Cost: some 80 ns a step for a bicubic span; two steps from a neighbouring foot, at most kMaxSteps.
-SpanEnd newton_in_span(const SpanTask& task, SpanFoot& foot) {
-  const Homogeneous r(task.r[0], task.r[1], task.r[2], 1.0);
-  double x = foot.x, y = foot.y;
-  for (int k = 0; k < kMaxSteps; ++k) {
-    HomogeneousDerivatives h;
-    evaluate_taylor(task.taylor, task.degree_u, task.degree_v, x, y, h);
-    project(h);
-    const Homogeneous offset = r - h.a;
-    const double square = dot(offset, offset);
-    if (rises(square, foot.distance_squared, task.slack)) return SpanEnd::stuck;
-    foot.x = x;
-    foot.y = y;
-    foot.distance_squared = square;
-    foot.moved = true;
-    const DistanceQuadratic q = quadratic_at(h.a_u, h.a_v, h.a_uu, h.a_uv, h.a_vv, offset, dot);
-    double dx = 0, dy = 0;
-    if (!q.newton_step(dx, dy)) return SpanEnd::stuck;
-    x += dx;
-    y += dy;
-    const bool inside = task.holds(x, y);
-    if (dx * dx * q.m_uu + 2.0 * dx * dy * q.m_uv + dy * dy * q.m_vv <= task.last_step * task.last_step) {
-      if (!inside) return SpanEnd::stuck;
-      finish(h, dx, dy, foot);
-      foot.x = x;
-      foot.y = y;
-      return SpanEnd::converged;
-    }
-    if (inside) continue;
-    foot.next_x = x;
-    foot.next_y = y;
-    return SpanEnd::left;
-  }
-  return SpanEnd::stuck;
+[[gnu::always_inline]] inline Vec3 vector_of(const double (&numbers)[4]) {
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 class NewtonWalk {
  public:
   NewtonWalk(const Surface& surface, const Vec3& r, const ParameterLimits& limits)
-      : surface_(surface), limits_(limits) {
-    task_.r = r;
+      : surface_(surface), r_(r), limits_(limits) {
+    for (int k = 0; k < 3; ++k) task_.r[k] = r[k];
     task_.last_step = kLastStep * surface.half_diagonal();
     task_.slack = kDistanceRounding * surface.half_diagonal();
   }
@@ -109,12 +33,15 @@ class NewtonWalk {
     foot.distance_squared = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kMaxSpans; ++k) {
       enter(place, foot);
-      const SpanEnd end = newton_in_span(task_, foot);
+      const bool bicubic = task_.degree_u == 3 && task_.degree_v == 3;
+      const SpanEnd end = bicubic && lanes_ ? newton_in_bicubic(task_, foot) : newton_in_span(task_, foot);
       if (foot.moved) start = clamped({place.span, u_of(foot.x), v_of(foot.y)}, limits_);
       if (end == SpanEnd::converged) {
         result.place = start;
-        result.at = scaled(foot.at, per_u_, per_v_);
-        result.offset = task_.r - result.at.s;
+        const SurfacePoint at{vector_of(foot.s),    vector_of(foot.s_u),  vector_of(foot.s_v),
+                              vector_of(foot.s_uu), vector_of(foot.s_uv), vector_of(foot.s_vv)};
+        result.at = scaled(at, per_u_, per_v_);
+        result.offset = r_ - result.at.s;
         result.converged = true;
         return true;
       }
@@ -153,7 +80,9 @@ class NewtonWalk {
   [[nodiscard]] double v_of(double y) const { return domain_.v_min + (y + 0.5) * (domain_.v_max - domain_.v_min); }
 
   const Surface& surface_;
+  const Vec3& r_;
   const ParameterLimits& limits_;
+  bool lanes_ = lanes_at_hand();
   SpanTask task_;
   SpanDomain domain_{};
   double per_u_ = 1, per_v_ = 1;

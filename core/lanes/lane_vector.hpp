@@ -43,7 +43,13 @@ BLADEFIT_INLINE Four root(const Four& a) {
   return Four{__builtin_sqrt(a[0]), __builtin_sqrt(a[1]), __builtin_sqrt(a[2]), __builtin_sqrt(a[3])};
 #endif
 }
-BLADEFIT_INLINE bool none(const Mask& m) { return (m[0] | m[1] | m[2] | m[3]) == 0; }
+BLADEFIT_INLINE bool none(const Mask& m) {
+#if defined(__AVX__)
+  return __builtin_ia32_movmskpd256(reinterpret_cast<const Four&>(m)) == 0;
+#else
+  return (m[0] | m[1] | m[2] | m[3]) == 0;
+#endif
+}
 BLADEFIT_INLINE void keep(Four3& to, const Mask& where, const Four3& from) {
   to.x = where ? from.x : to.x;
   to.y = where ? from.y : to.y;

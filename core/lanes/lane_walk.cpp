@@ -1,66 +1,9 @@
-#include "core/lanes/lane_vector.hpp"
+#include "core/lanes/lane_form.hpp"
+// After it:
+#include "core/geometry/distance_quadratic.hpp"
 
 namespace bladefit {
 namespace {
-
-/// Homogeneous point and derivatives of one lane's form, as taylor::sum<3, 3> adds them up.
-struct Form {
-  Four a, a_u, a_v, a_uu, a_uv, a_vv;
-};
-
-BLADEFIT_INLINE Four coefficient(const double* form, int i, int j) {
-  return *reinterpret_cast<const Unaligned*>(form + 4 * (4 * i + j));
-}
-
-/// One row with its first and half its second derivative along y.
-BLADEFIT_INLINE void row(const double* form, int i, double y, Four& value, Four& first, Four& half_second) {
-  first = coefficient(form, i, 3);
-  value = first * y + coefficient(form, i, 2);
-  half_second = first;
-  first = first * y + value;
-  value = value * y + coefficient(form, i, 1);
-  half_second = half_second * y + first;
-  first = first * y + value;
-  value = value * y + coefficient(form, i, 0);
-}
-
-BLADEFIT_INLINE Form evaluate(const double* form, double x, double y) {
-  Form f;
-  Four value, first, half_second;
-  row(form, 3, y, f.a, f.a_v, f.a_vv);
-  f.a_u = f.a;
-  f.a_uv = f.a_v;
-  row(form, 2, y, value, first, half_second);
-  f.a = f.a * x + value;
-  f.a_v = f.a_v * x + first;
-  f.a_vv = f.a_vv * x + half_second;
-  f.a_uu = f.a_u;
-  f.a_u = f.a_u * x + f.a;
-  f.a_uv = f.a_uv * x + f.a_v;
-  row(form, 1, y, value, first, half_second);
-  f.a = f.a * x + value;
-  f.a_v = f.a_v * x + first;
-  f.a_vv = f.a_vv * x + half_second;
-  f.a_uu = f.a_uu * x + f.a_u;
-  f.a_u = f.a_u * x + f.a;
-  f.a_uv = f.a_uv * x + f.a_v;
-  row(form, 0, y, value, first, half_second);
-  f.a = f.a * x + value;
-  f.a_v = f.a_v * x + first;
-  f.a_vv = f.a_vv * x + half_second;
-  f.a_uu += f.a_uu;
-  f.a_vv += f.a_vv;
-  return f;
-}
-
-/// Four points, one a lane before, one a coordinate after; `w`: their fourth.
-BLADEFIT_INLINE Four3 transposed(const Four& p, const Four& q, const Four& r, const Four& s, Four& w) {
-  const Four pq_low = __builtin_shufflevector(p, q, 0, 4, 2, 6), pq_high = __builtin_shufflevector(p, q, 1, 5, 3, 7);
-  const Four rs_low = __builtin_shufflevector(r, s, 0, 4, 2, 6), rs_high = __builtin_shufflevector(r, s, 1, 5, 3, 7);
-  w = __builtin_shufflevector(pq_high, rs_high, 2, 3, 6, 7);
-  return {__builtin_shufflevector(pq_low, rs_low, 0, 1, 4, 5), __builtin_shufflevector(pq_high, rs_high, 0, 1, 4, 5),
-          __builtin_shufflevector(pq_low, rs_low, 2, 3, 6, 7)};
-}
 
 /// The surface of all lanes with its derivatives in the parameters of the forms.
 struct Surfaces {
@@ -89,7 +32,6 @@ BLADEFIT_INLINE Surfaces surfaces(const LaneWalk& walk, const Four& x, const Fou
 }
 
 constexpr int kMaxSteps = 12;
-constexpr double kConvexDeterminant = 1e-9;
 
 }  // namespace
 
@@ -102,7 +44,8 @@ void walk_lanes(LaneWalk& walk) {
     const Surfaces p = surfaces(walk, x, y);
     const Four3 offset = r - p.s;
     const Four square = dot(offset, offset);
-    open = open & ~((square > before) & (square > before + walk.slack * (root(before) + walk.slack)));
+    const Mask rises = square > before;
+    if (!none(open & rises)) open = open & ~(rises & (square > before + walk.slack * (root(before) + walk.slack)));
     before = square;
     const Four m_uu = dot(p.s_u, p.s_u), m_uv = dot(p.s_u, p.s_v), m_vv = dot(p.s_v, p.s_v);
     const Four g_u = -dot(offset, p.s_u), g_v = -dot(offset, p.s_v);

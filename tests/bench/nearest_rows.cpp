@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/geometry/global_projection.hpp"
+#include "core/geometry/lane_projection.hpp"
 #include "tests/bench/bench_case.hpp"
 
 namespace bladefit::bench {
@@ -61,6 +62,21 @@ std::vector<Query> warm_queries(const FitProblem& problem) {
   return queries;
 }
 
+/// The next feet at once, as sweeps over stored points find them.
+void find_four(const Surface& surface, const std::vector<Query>& queries, const std::vector<SurfacePlace>& places,
+               std::size_t first, std::vector<Parameters>& feet) {
+  LaneProjections lanes;
+  const std::size_t end = std::min(queries.size(), first + kLanes);
+  for (std::size_t k = first; k < end; ++k) lanes.enter(surface, queries[k].r, places[k]);
+  lanes.find(surface);
+  for (std::size_t k = first; k < end; ++k) {
+    const auto lane = static_cast<std::uint32_t>(k - first);
+    SurfacePlace place = lanes.place(lane);
+    if (!lanes.found(lane)) place = project_local(surface, queries[k].r, places[k]).place;
+    feet[k] = {place.u, place.v};
+  }
+}
+
 std::vector<Answers> warm_solvers(const BenchDesign& design, const std::vector<Query>& queries,
                                   const std::vector<SurfacePlace>& places) {
   std::vector<Answers> solvers;
@@ -68,6 +84,11 @@ std::vector<Answers> warm_solvers(const BenchDesign& design, const std::vector<Q
                        for (std::size_t k = 0; k < queries.size(); ++k) {
                          const Projection found = project_local(design.design.surface(), queries[k].r, places[k]);
                          feet[k] = {found.place.u, found.place.v};
+                       }
+                     }});
+  solvers.push_back({"bladefit, four at a time", {}, [&](std::vector<Parameters>& feet) {
+                       for (std::size_t first = 0; first < queries.size(); first += kLanes) {
+                         find_four(design.design.surface(), queries, places, first, feet);
                        }
                      }});
   for (const Peer& peer : design.peers) {

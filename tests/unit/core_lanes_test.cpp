@@ -1,4 +1,4 @@
-// Points tracked in the lanes of vector registers, beside the same points one at a time: the same bits.
+// Points tracked with wide vector registers, in lanes or one at a time, beside the same without them: the same bits.
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,8 @@
 
 #include "core/fit/quadratic_model.hpp"
 #include "core/geometry/lane_projection.hpp"
+#include "core/geometry/newton_walk.hpp"
+#include "core/geometry/span_newton.hpp"
 #include "tests/unit/core_fixtures.hpp"
 
 namespace bladefit::testing {
@@ -108,6 +110,36 @@ TEST_P(Lanes, GiveUpRatherThanLeaveTheSpan) {
   const std::uint32_t count = compared(0.02);
   EXPECT_GT(count, kPoints / 10);
   EXPECT_LT(count, kPoints * 9 / 10);
+}
+
+/// One point at a time with wide registers, beside the same without: wherever it ends.
+TEST_P(Lanes, OfOnePointAreItsBits) {
+  std::array<int, 3> ends{};
+  for (const double apart : {1e-5, 0.02}) {
+    for (const Task& one : tasks(apart)) {
+      SpanTask task;
+      task.taylor = surface_.taylor(one.start.span);
+      task.degree_u = task.degree_v = 3;
+      for (int k = 0; k < 3; ++k) task.r[k] = one.r[k];
+      task.last_step = kLastStep * frame_.length;
+      task.slack = kDistanceRounding * frame_.length;
+      SpanFoot plain{}, wide{};
+      plain.distance_squared = wide.distance_squared = std::numeric_limits<double>::infinity();
+      const SpanEnd end = newton_in_span(task, plain);
+      ASSERT_EQ(end, newton_in_bicubic(task, wide));
+      ++ends[static_cast<std::size_t>(end)];
+      EXPECT_EQ(plain.moved, wide.moved);
+      EXPECT_EQ(plain.distance_squared, wide.distance_squared);
+      for (const auto number : {&SpanFoot::x, &SpanFoot::y, &SpanFoot::next_x, &SpanFoot::next_y})
+        EXPECT_EQ(plain.*number, wide.*number);
+      for (const auto numbers :
+           {&SpanFoot::s, &SpanFoot::s_u, &SpanFoot::s_v, &SpanFoot::s_uu, &SpanFoot::s_uv, &SpanFoot::s_vv}) {
+        for (int k = 0; k < 3; ++k) EXPECT_EQ((plain.*numbers)[k], (wide.*numbers)[k]);
+      }
+    }
+  }
+  EXPECT_GT(ends[static_cast<std::size_t>(SpanEnd::converged)], 50);
+  EXPECT_GT(ends[static_cast<std::size_t>(SpanEnd::left)], 50);
 }
 
 /// What stands in the other lanes does not matter: nothing, or numbers that are none.

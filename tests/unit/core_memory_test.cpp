@@ -112,8 +112,8 @@ std::set<std::string> undefined_symbols(const std::string& archive) {
   return symbols;
 }
 
-/// Everything that the core may ask of the outside: memory copies, mathematics, assertions of a debug build, and what
-/// sanitizers add.
+/// Everything that the core may ask of the outside: memory copies, mathematics, what the processor can do, assertions
+/// of a debug build, and what sanitizers add.
 bool allowed(const std::string& symbol) {
   static const std::set<std::string> names = {"memcpy",
                                               "memmove",
@@ -126,6 +126,7 @@ bool allowed(const std::string& symbol) {
                                               "atan2",
                                               "hypot",
                                               "__assert_fail",
+                                              "__cpu_model",  // libgcc: what the processor can do
                                               "__stack_chk_fail",
                                               "_GLOBAL_OFFSET_TABLE_"};
   const auto begins = [&](const char* prefix) { return symbol.rfind(prefix, 0) == 0; };

@@ -1,0 +1,80 @@
+#pragma once
+#include <cstdint>
+
+#include "core/geometry/distance_quadratic.hpp"
+
+namespace bladefit {
+
+// Plain numbers and nothing that is not in line: the kernels of core/lanes include this.
+
+/// A foot sought inside one span, in its parameters x = s - 1/2, y = t - 1/2.
+struct SpanTask {
+  const double* taylor = nullptr;
+  std::uint32_t degree_u = 0, degree_v = 0;
+  double r[3] = {0, 0, 0};  ///< the point [mm]
+  double x_min = -0.5, x_max = 0.5, y_min = -0.5, y_max = 0.5;
+  double last_step = 0;  ///< a step [mm] that is not longer is the last: Newton's error is then far under rounding
+  double slack = 0;      ///< a distance may rise by this much as rounding [mm]
+};
+
+enum class SpanEnd : std::uint8_t {
+  converged,  ///< at a local minimum
+  left,       ///< the next step leaves the limits
+  stuck       ///< the squared distance is not convex here, did not fall, or steps were used up
+};
+
+struct SpanFoot {
+  double x = 0, y = 0;            ///< where the distance was last seen to fall
+  double next_x = 0, next_y = 0;  ///< where the step went that left the limits
+  double distance_squared = 0;    ///< at (x, y) [mm^2]; given: not to be exceeded
+  bool moved = false;             ///< (x, y) was evaluated: false where even the start was too far off
+  /// Converged: the surface at (x, y) and its derivatives in x and y, each with a fourth number of no meaning.
+  alignas(32) double s[4], s_u[4], s_v[4], s_uu[4], s_uv[4], s_vv[4];
+};
+
+/// Newton steps from (foot.x, foot.y). `evaluate(x, y)` gives the surface there: `square`, the squared distance of it;
+/// `quadratic`, the DistanceQuadratic; and `finish(dx, dy, foot)`, which writes the surface a last step away, by the
+/// derivatives at hand. Cost: two evaluations from a neighbouring foot, at most twelve.
+template <class Evaluate>
+[[gnu::always_inline]] inline SpanEnd newton_steps(const SpanTask& task, SpanFoot& foot, const Evaluate& evaluate) {
+  constexpr int kMaxSteps = 12;
+  double x = foot.x, y = foot.y;
+  for (int k = 0; k < kMaxSteps; ++k) {
+    const auto at = evaluate(x, y);
+    const double before = foot.distance_squared;
+    // Rounding may let a squared distance rise by a little.
+    if (at.square > before && at.square > before + task.slack * (__builtin_sqrt(before) + task.slack)) {
+      return SpanEnd::stuck;
+    }
+    foot.x = x;
+    foot.y = y;
+    foot.distance_squared = at.square;
+    foot.moved = true;
+    const DistanceQuadratic& q = at.quadratic;
+    double dx = 0, dy = 0;
+    if (!q.newton_step(dx, dy)) return SpanEnd::stuck;
+    x += dx;
+    y += dy;
+    const bool inside = x >= task.x_min && x <= task.x_max && y >= task.y_min && y <= task.y_max;
+    if (dx * dx * q.m_uu + 2.0 * dx * dy * q.m_uv + dy * dy * q.m_vv <= task.last_step * task.last_step) {
+      if (!inside) return SpanEnd::stuck;
+      at.finish(dx, dy, foot);
+      foot.x = x;
+      foot.y = y;
+      return SpanEnd::converged;
+    }
+    if (inside) continue;
+    foot.next_x = x;
+    foot.next_y = y;
+    return SpanEnd::left;
+  }
+  return SpanEnd::stuck;
+}
+
+/// Any degrees, on any processor. Cost: some 60 ns a step for a bicubic span.
+[[nodiscard]] SpanEnd newton_in_span(const SpanTask& task, SpanFoot& foot);
+
+/// The same to the last bit for a bicubic span, where lanes_at_hand(). Cost: some 40 ns a step.
+[[nodiscard]] SpanEnd newton_in_bicubic(const SpanTask& task, SpanFoot& foot);
+
+}  // namespace bladefit
