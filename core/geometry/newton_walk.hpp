@@ -12,7 +12,7 @@ inline constexpr double kDistanceRounding = 1e-13;
 /// Pure Newton steps for the foot of `r`, from span to span, in the parameters of each: the usual way, without the
 /// safeguards of project_local(), which takes over where they are needed.
 /// True: `result` is a local minimum inside the limits. False: `start`, which lies in them, has become the best place
-/// so far. Cost: some 80 ns a step for bicubic spans; two steps from a neighbouring foot, a hundred at most.
+/// so far. Cost: some 50 ns a step for bicubic spans; two steps from a neighbouring foot, a hundred at most.
 [[nodiscard]] bool newton_walk(const Surface& surface, const Vec3& r, const ParameterLimits& limits,
                                SurfacePlace& start, Projection& result);
 

@@ -17,6 +17,8 @@ struct SpanTask {
   double slack = 0;      ///< a distance may rise by this much as rounding [mm]
 };
 
+inline constexpr int kMaxNewtonSteps = 12;
+
 enum class SpanEnd : std::uint8_t {
   converged,  ///< at a local minimum
   left,       ///< the next step leaves the limits
@@ -37,9 +39,8 @@ struct SpanFoot {
 /// derivatives at hand. Cost: two evaluations from a neighbouring foot, at most twelve.
 template <class Evaluate>
 [[gnu::always_inline]] inline SpanEnd newton_steps(const SpanTask& task, SpanFoot& foot, const Evaluate& evaluate) {
-  constexpr int kMaxSteps = 12;
   double x = foot.x, y = foot.y;
-  for (int k = 0; k < kMaxSteps; ++k) {
+  for (int k = 0; k < kMaxNewtonSteps; ++k) {
     const auto at = evaluate(x, y);
     const double before = foot.distance_squared;
     // Rounding may let a squared distance rise by a little.

@@ -1,6 +1,6 @@
 #include "core/lanes/lane_form.hpp"
 // After it:
-#include "core/geometry/distance_quadratic.hpp"
+#include "core/geometry/span_newton.hpp"
 
 namespace bladefit {
 namespace {
@@ -31,8 +31,6 @@ BLADEFIT_INLINE Surfaces surfaces(const LaneWalk& walk, const Four& x, const Fou
   return p;
 }
 
-constexpr int kMaxSteps = 12;
-
 }  // namespace
 
 void walk_lanes(LaneWalk& walk) {
@@ -40,7 +38,7 @@ void walk_lanes(LaneWalk& walk) {
   const Four3 r = load3(walk.r);
   Mask open = x == x, converged = x != x;
   Surfaces found{};
-  for (int k = 0; k < kMaxSteps && !none(open); ++k) {
+  for (int k = 0; k < kMaxNewtonSteps && !none(open); ++k) {
     const Surfaces p = surfaces(walk, x, y);
     const Four3 offset = r - p.s;
     const Four square = dot(offset, offset);

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include "tests/unit/core_programs.hpp"
 #include "tests/unit/core_session.hpp"
@@ -97,15 +98,22 @@ class AllocationCount {
   }
 };
 
-std::set<std::string> undefined_symbols(const std::string& archive) {
-  FILE* pipe = popen(("nm -u -P '" + archive + "' 2>&1").c_str(), "r");
+/// What nm prints of the core's archive.
+std::vector<std::string> symbol_lines(const std::string& options) {
+  FILE* pipe = popen(("nm -P " + options + " '" + BLADEFIT_CORE_ARCHIVE + "' 2>&1").c_str(), "r");
   std::string text;
   std::array<char, 4096> buffer{};
   for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) text.append(buffer.data(), n);
   EXPECT_EQ(pclose(pipe), 0) << text;
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::set<std::string> undefined_symbols() {
   std::set<std::string> symbols;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : symbol_lines("-u")) {
     const std::size_t end = line.find(" U");
     if (end != std::string::npos) symbols.insert(line.substr(0, end));
   }
@@ -135,12 +143,28 @@ bool allowed(const std::string& symbol) {
 }
 
 TEST(CoreMemory, ArchiveAsksForNoAllocator) {
-  const std::set<std::string> symbols = undefined_symbols(BLADEFIT_CORE_ARCHIVE);
+  const std::set<std::string> symbols = undefined_symbols();
   EXPECT_TRUE(symbols.contains("sqrt") || symbols.contains("atan2")) << "nm gave nothing";
   for (const std::string& symbol : symbols) EXPECT_TRUE(allowed(symbol)) << symbol;
   for (const char* forbidden : {"malloc", "free", "_Znwm", "_ZdlPvm", "__cxa_throw", "pthread_mutex_lock"}) {
     EXPECT_FALSE(allowed(forbidden)) << forbidden;
   }
+}
+
+/// What the kernels define is theirs alone: a function that other files have too could be linked from here, and would
+/// then ask for AVX2 of every processor.
+TEST(CoreMemory, KernelsShareNoCode) {
+  std::set<std::string> defined;
+  for (const std::string& line : symbol_lines("-A -g --defined-only")) {
+    const bool kernel = line.find("[lane_walk.cpp.o]") != std::string::npos ||
+                        line.find("[lane_rows.cpp.o]") != std::string::npos ||
+                        line.find("[bicubic_newton.cpp.o]") != std::string::npos;
+    if (!kernel || line.find("]: ") == std::string::npos) continue;
+    const std::string symbol = line.substr(line.find("]: ") + 3);
+    EXPECT_NE(symbol.find(" T "), std::string::npos) << symbol;
+    defined.insert(symbol.substr(0, symbol.find(' ')));
+  }
+  EXPECT_EQ(defined.size(), 3U) << "walk_lanes, take_rows and newton_in_bicubic";
 }
 
 TEST(CoreMemory, CounterCounts) {
