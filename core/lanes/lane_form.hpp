@@ -25,30 +25,28 @@ BLADEFIT_INLINE void row(const double* form, int i, double y, Four& value, Four&
   value = value * y + coefficient(form, i, 0);
 }
 
+/// One step of Horner's rule along x: takes in the next lower row.
+BLADEFIT_INLINE void take_row(const double* form, int i, double x, double y, Form& f) {
+  Four value, first, half_second;
+  row(form, i, y, value, first, half_second);
+  f.a = f.a * x + value;
+  f.a_v = f.a_v * x + first;
+  f.a_vv = f.a_vv * x + half_second;
+}
+
 BLADEFIT_INLINE Form evaluate(const double* form, double x, double y) {
   Form f;
-  Four value, first, half_second;
   row(form, 3, y, f.a, f.a_v, f.a_vv);
   f.a_u = f.a;
   f.a_uv = f.a_v;
-  row(form, 2, y, value, first, half_second);
-  f.a = f.a * x + value;
-  f.a_v = f.a_v * x + first;
-  f.a_vv = f.a_vv * x + half_second;
+  take_row(form, 2, x, y, f);
   f.a_uu = f.a_u;
-  f.a_u = f.a_u * x + f.a;
-  f.a_uv = f.a_uv * x + f.a_v;
-  row(form, 1, y, value, first, half_second);
-  f.a = f.a * x + value;
-  f.a_v = f.a_v * x + first;
-  f.a_vv = f.a_vv * x + half_second;
-  f.a_uu = f.a_uu * x + f.a_u;
-  f.a_u = f.a_u * x + f.a;
-  f.a_uv = f.a_uv * x + f.a_v;
-  row(form, 0, y, value, first, half_second);
-  f.a = f.a * x + value;
-  f.a_v = f.a_v * x + first;
-  f.a_vv = f.a_vv * x + half_second;
+  for (int i = 1; i >= 0; --i) {
+    if (i == 0) f.a_uu = f.a_uu * x + f.a_u;
+    f.a_u = f.a_u * x + f.a;
+    f.a_uv = f.a_uv * x + f.a_v;
+    take_row(form, i, x, y, f);
+  }
   f.a_uu += f.a_uu;
   f.a_vv += f.a_vv;
   return f;
