@@ -132,9 +132,9 @@ class Localizer {
   /// Takes the next verdict that a later fit has changed. False when there is none.
   [[nodiscard]] bool next_revision(Verdict& verdict);
 
-  /// Projects up to `max_points` stored points anew and moves the pose, until it stands still and a last sweep has
-  /// searched every foot globally and found no other. Returns ok (converged), underdetermined (converged in the
-  /// determined directions), more_work, or iteration_cap.
+  /// Projects up to `max_points` stored points anew and moves the pose, until it stands still and every foot has
+  /// been searched globally there, to within how exact a search is, and no other found. Returns ok (converged),
+  /// underdetermined (converged in the determined directions), more_work, or iteration_cap.
   [[nodiscard]] Status refine(std::uint32_t max_points);
 
   /// No more points will come: from here on refine() uses every direction the points determine at all, however weakly.
@@ -201,6 +201,7 @@ class Localizer {
   [[nodiscard]] bool visit_next(std::uint32_t count, Status& status);
   void visit(const Measurement& measurement);
   [[nodiscard]] bool finish_refine_sweep(Status& status);
+  [[nodiscard]] bool proven_already() const;
   [[nodiscard]] bool retreat();
   [[nodiscard]] Status least_squares_step();
   void begin_loss();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/localizer.hpp"
 
@@ -13,6 +14,8 @@ constexpr double kConvergedBelow = 1e-12;
 /// While the pose travels further than this between two sweeps [half diagonals], feet are searched anew: tracked ones
 /// would be left on the wrong side of thin places, and the fit led to another optimum.
 constexpr double kTravelsBeyond = 1e-3;
+/// While it travels no further than this [half diagonals], which is how exact a search is, feet need no other one.
+constexpr double kSearchHolds = 1e-10;
 
 }  // namespace
 
@@ -23,14 +26,19 @@ void Localizer::begin_sweep() {
   const Pose& pose = refinement_.further.active ? refinement_.further.pose : pose_;
   if (refinement_.bounded) bounded_.set_basis(free_motions(pose, config_.locked, frame_));
   refinement_.travelled = motion_between(refinement_.rows_pose, pose_, frame_).norm();
+  refinement_.since_search += refinement_.travelled;
   refinement_.rows_pose = pose_;
 }
 
 /// Points that were staged from a place are tracked until the last sweep: their lead is infinite.
 Localizer::Search Localizer::sweep_search(const StoredPoint& point) const {
+  if (refinement_.thorough) return proven_already() ? Search::if_doubtful : Search::always;
   const bool travels = refinement_.travelled > kTravelsBeyond * frame_.length && std::isfinite(point.rivals.lead);
-  return refinement_.thorough || travels ? Search::always : Search::if_doubtful;
+  return travels ? Search::always : Search::if_doubtful;
 }
+
+/// A sweep before this one has searched every foot, and the pose has hardly moved since.
+bool Localizer::proven_already() const { return refinement_.since_search <= kSearchHolds * frame_.length; }
 
 /// The last step made the sum of squares larger: go back and take a quarter of it. False when it did not.
 bool Localizer::retreat() {
@@ -74,6 +82,11 @@ bool Localizer::finish_refine_sweep(Status& status) {
   converged_ = status == Status::ok && unproven_ == 0;
   if (status == Status::ok && unproven_ > 0) status = Status::iteration_cap;
   infeasible_ = infeasible_ && converged_;
+  if (r.unproven > 0) {
+    r.since_search = std::numeric_limits<double>::infinity();
+  } else if (r.thorough && !proven_already()) {
+    r.since_search = 0.0;
+  }
   r.thorough = r.last_step.norm() <= kCheckedAbove * frame_.length;
   r.changed = r.unproven = 0;
   begin_sweep();
