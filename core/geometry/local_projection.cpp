@@ -155,8 +155,8 @@ Projection project_local(const Surface& surface, const Vec3& r, const SurfacePla
   Projection result;
   SurfacePlace place = clamped(start, limits);
   surface.settle(place);
-  if (newton_walk(surface, r, limits, place, result)) return result;
-  return Descent(surface, r, place, limits).run();
+  if (!newton_walk(surface, r, limits, place, result)) result = Descent(surface, r, place, limits).run();
+  return result;
 }
 
 namespace {

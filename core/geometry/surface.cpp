@@ -14,27 +14,10 @@ Surface::Surface(const DesignImage& image) : image_(image), middle_(middle_of(im
       0.5 * std::hypot(h.box_max[0] - h.box_min[0], h.box_max[1] - h.box_min[1], h.box_max[2] - h.box_min[2]);
 }
 
-SpanDomain Surface::domain(std::uint32_t span_index) const {
-  const ImageSpan& s = span(span_index);
-  const ImagePatch& p = image_.patches()[s.patch];
-  const double* bu = image_.breaks().data() + p.first_break_u + s.iu;
-  const double* bv = image_.breaks().data() + p.first_break_v + s.iv;
-  return {bu[0], bu[1], bv[0], bv[1]};
-}
-
 SurfacePoint projected(const HomogeneousDerivatives& h) {
   HomogeneousDerivatives p = h;
   project(p);
   return {p.a.head<3>(), p.a_u.head<3>(), p.a_v.head<3>(), p.a_uu.head<3>(), p.a_uv.head<3>(), p.a_vv.head<3>()};
-}
-
-SurfacePoint scaled(const SurfacePoint& point, double per_u, double per_v) {
-  return {point.s,
-          per_u * point.s_u,
-          per_v * point.s_v,
-          per_u * per_u * point.s_uu,
-          per_u * per_v * point.s_uv,
-          per_v * per_v * point.s_vv};
 }
 
 SurfacePoint Surface::evaluate(const SurfacePlace& place) const {

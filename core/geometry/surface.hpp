@@ -25,7 +25,14 @@ struct SurfacePoint {
 [[nodiscard]] SurfacePoint projected(const HomogeneousDerivatives& h);
 
 /// The same in parameters that run `per_u` and `per_v` times slower: derivatives are scaled.
-[[nodiscard]] SurfacePoint scaled(const SurfacePoint& point, double per_u, double per_v);
+[[nodiscard]] inline SurfacePoint scaled(const SurfacePoint& point, double per_u, double per_v) {
+  return {point.s,
+          per_u * point.s_u,
+          per_v * point.s_v,
+          per_u * per_u * point.s_uu,
+          per_u * per_v * point.s_uv,
+          per_v * per_v * point.s_vv};
+}
 
 /// Rectangle of one span in the normalised parameters of its patch.
 struct SpanDomain {
@@ -49,7 +56,13 @@ class Surface {
   [[nodiscard]] const double* taylor(std::uint32_t span_index) const {
     return image_.taylor().data() + span(span_index).first_coefficient;
   }
-  [[nodiscard]] SpanDomain domain(std::uint32_t span_index) const;
+  [[nodiscard]] SpanDomain domain(std::uint32_t span_index) const {
+    const ImageSpan& s = span(span_index);
+    const ImagePatch& p = image_.patches()[s.patch];
+    const double* bu = image_.breaks().data() + p.first_break_u + s.iu;
+    const double* bv = image_.breaks().data() + p.first_break_v + s.iv;
+    return {bu[0], bu[1], bv[0], bv[1]};
+  }
 
   /// Evaluates at `place`, which must lie inside its span. Cost: one Taylor form (thesis 3-4).
   [[nodiscard]] SurfacePoint evaluate(const SurfacePlace& place) const;
