@@ -3,7 +3,7 @@
 namespace bladefit {
 
 bool lanes_at_hand() {
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(__clang__)
   return __builtin_cpu_supports("avx2") != 0;
 #else
   return false;
