@@ -40,6 +40,7 @@ void add_outer(Mat6& m, double factor, const Vec6& a, const Vec6& b) {
 }
 
 /// dn/dr = -T G^-1 B M^-1 T' on a smooth foot: G, B first and second fundamental form, M = G - phi B, T = [Su Sv].
+/// The same in lanes, to the same bits: core/lanes/lane_rows.cpp; and so add_rotation_bend().
 void add_surface_bend(const Projection& p, const Vec3& n, const Lever& lever, Mat6& bend) {
   const SurfacePoint& s = p.at;
   const double phi = n.dot(p.offset);

@@ -34,9 +34,33 @@ struct SpanFoot {
   alignas(32) double s[4], s_u[4], s_v[4], s_uu[4], s_uv[4], s_vv[4];
 };
 
-/// Newton steps from (foot.x, foot.y). `evaluate(x, y)` gives the surface there: `square`, the squared distance of it;
-/// `quadratic`, the DistanceQuadratic; and `finish(dx, dy, foot)`, which writes the surface a last step away, by the
-/// derivatives at hand. Cost: two evaluations from a neighbouring foot, at most twelve.
+/// The surface at a place: a point and its derivatives a, a_u ... a_vv, `Derivatives` of any vector of four numbers.
+template <class Derivatives>
+struct SurfaceHere {
+  Derivatives h;
+  double square;                ///< squared distance of the point sought for [mm^2]
+  DistanceQuadratic quadratic;  ///< of half of that
+
+  /// Writes the surface a last step away, by the derivatives at hand.
+  [[gnu::always_inline]] inline void finish(double dx, double dy, SpanFoot& foot) const {
+    put(foot.s, h.a + dx * h.a_u + dy * h.a_v);
+    put(foot.s_u, h.a_u + dx * h.a_uu + dy * h.a_uv);
+    put(foot.s_v, h.a_v + dx * h.a_uv + dy * h.a_vv);
+    put(foot.s_uu, h.a_uu);
+    put(foot.s_uv, h.a_uv);
+    put(foot.s_vv, h.a_vv);
+  }
+
+ private:
+  using Vector = decltype(Derivatives::a);
+  [[gnu::always_inline]] static inline void put(double (&to)[4], const Vector& from) {
+    static_assert(sizeof(from) == sizeof(to));
+    __builtin_memcpy(to, &from, sizeof(to));
+  }
+};
+
+/// Newton steps from (foot.x, foot.y). `evaluate(x, y)` gives the SurfaceHere. Cost: two evaluations from a
+/// neighbouring foot, at most twelve.
 template <class Evaluate>
 [[gnu::always_inline]] inline SpanEnd newton_steps(const SpanTask& task, SpanFoot& foot, const Evaluate& evaluate) {
   double x = foot.x, y = foot.y;

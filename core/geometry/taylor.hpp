@@ -52,7 +52,8 @@ template <std::uint32_t Degree>
   out.a_vv = out.a_vv * x + half_second;
 }
 
-/// With compile-time degrees, so that the loops unroll; 0: those given.
+/// With compile-time degrees (3, 3 in wide registers, to the same bits: core/lanes/lane_form.hpp), so that the loops
+/// unroll; 0: those given.
 template <std::uint32_t DegreeU, std::uint32_t DegreeV>
 [[gnu::always_inline]] inline void sum(const double* c, std::uint32_t degree_u, std::uint32_t degree_v, double x,
                                        double y, HomogeneousDerivatives& out) {

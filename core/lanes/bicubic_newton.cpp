@@ -23,28 +23,13 @@ BLADEFIT_INLINE Four sums(const Four& p, const Four& q, const Four& r, const Fou
   return t.x + t.y + t.z;
 }
 
-struct SurfaceHere {
-  Form h;
-  double square;
-  DistanceQuadratic quadratic;
-
-  BLADEFIT_INLINE void finish(double dx, double dy, SpanFoot& foot) const {
-    store(foot.s, h.a + dx * h.a_u + dy * h.a_v);
-    store(foot.s_u, h.a_u + dx * h.a_uu + dy * h.a_uv);
-    store(foot.s_v, h.a_v + dx * h.a_uv + dy * h.a_vv);
-    store(foot.s_uu, h.a_uu);
-    store(foot.s_uv, h.a_uv);
-    store(foot.s_vv, h.a_vv);
-  }
-};
-
 }  // namespace
 
 SpanEnd newton_in_bicubic(const SpanTask& task, SpanFoot& foot) {
   const Four r{task.r[0], task.r[1], task.r[2], 1.0};
   return newton_steps(
       task, foot, [&](double x, double y) __attribute__((always_inline)) {
-        SurfaceHere at{evaluate(task.taylor, x, y), 0, {}};
+        SurfaceHere<Form> at{evaluate(task.taylor, x, y), 0, {}};
         Form& h = at.h;
         project(h);
         const Four offset = r - h.a, along_v = offset * h.a_v;
