@@ -200,6 +200,49 @@ TEST(Stream, GoesOnWhenMemoryIsFull) {
   EXPECT_EQ(stream->stage(next), Status::out_of_range);
 }
 
+/// Every foot of a fit is searched once at its end, and not again while the pose moves by less than searches are exact
+/// to.
+TEST(Batch, APoseThatHardlyMovedIsNotSearchedAgain) {
+  const ReferenceCase c = read_case("arl_fan");
+  const Surface& surface = reference_design("arl_fan").surface();
+  constexpr int kFits = 200;
+  int hardly_moved = 0;
+  for (int seed = 1; seed <= kFits; ++seed) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    const std::vector<ProbePoint> points = thinned(c, static_cast<std::size_t>(seed % 4), 4);
+    const auto all = static_cast<std::uint32_t>(points.size());
+    LocalizerConfig config = config_of(c, points.size());
+    config.start = small_motion(random, surface, 0.01);
+    OwnedLocalizer localizer(reference_design("arl_fan").image(), config);
+    for (const ProbePoint& point : points) ASSERT_EQ(localizer->stage(point), Status::ok);
+    localizer->conclude();
+    Status status = Status::more_work;
+    bool searched = false;
+    while (status == Status::more_work) {
+      const FitReport before = localizer->fit();
+      status = localizer->refine(all);
+      const std::uint32_t searches = localizer->fit().searches - before.searches;
+      if (searched && before.gradient <= 1e-10 * surface.half_diagonal()) {
+        EXPECT_EQ(searches, 0U) << "seed " << seed;
+        ++hardly_moved;
+      }
+      searched = searches == all;
+    }
+    ASSERT_EQ(status, Status::ok) << "seed " << seed;
+    const Pose pose = localizer->fit().pose;
+    Verdict verdict;
+    for (const ProbePoint& point : points) {
+      ASSERT_EQ(localizer->verdict_of(point.sequence, verdict), Status::ok);
+      const Vec3 approach = config.use_approach ? Vec3(point.approach.data()) : Vec3(Vec3::Zero());
+      const ProjectionQuery query{apply(pose, Vec3(point.position.data())), pose.rotation * approach};
+      const Projection nearest = project_global(surface, query, nullptr).nearest;
+      EXPECT_NEAR(std::abs(verdict.foot.distance), nearest.offset.norm(), 1e-8) << "point " << point.sequence;
+    }
+  }
+  std::printf("[ figures  ] %d of %d fits moved so little after their searches\n", hardly_moved, kFits);
+  EXPECT_GT(hardly_moved, 0) << "no fit went through such a sweep";
+}
+
 TEST(Stream, SameStreamSameBits) {
   const BladeSession s;
   OwnedLocalizer a(s.design.image(), s.config), b(s.design.image(), s.config);
