@@ -6,7 +6,7 @@
 #include <array>
 
 #include "config/fit_table.hpp"
-#include "drivers/text_number.hpp"
+#include "drivers/text/text_number.hpp"
 
 namespace bladefit {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <numeric>
 
-#include "drivers/read_file.hpp"
+#include "drivers/text/read_file.hpp"
 
 namespace bladefit {
 namespace {

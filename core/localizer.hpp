@@ -3,18 +3,18 @@
 #include <cstdint>
 #include <span>
 
-#include "core/fit/bound_tracker.hpp"
-#include "core/fit/bounded_fit.hpp"
 #include "core/fit/loss.hpp"
-#include "core/fit/measurement.hpp"
 #include "core/fit/pose.hpp"
 #include "core/fit/pose_solver.hpp"
-#include "core/fit/refinement.hpp"
-#include "core/fit/stored_point.hpp"
-#include "core/geometry/design_image.hpp"
+#include "core/geometry/surface/design_image.hpp"
 #include "core/inspection/tolerance_map.hpp"
 #include "core/inspection/verdict.hpp"
+#include "core/localizer/measurement.hpp"
+#include "core/localizer/refinement.hpp"
+#include "core/localizer/stored_point.hpp"
 #include "core/probe_point.hpp"
+#include "core/programs/bound_tracker.hpp"
+#include "core/programs/bounded_fit.hpp"
 #include "core/status.hpp"
 
 namespace bladefit {

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "drivers/probe_source.hpp"
+#include "drivers/source/probe_source.hpp"
 #include "drivers/source_settings.hpp"
 
 namespace bladefit {

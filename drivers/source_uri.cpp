@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "drivers/text_number.hpp"
+#include "drivers/text/text_number.hpp"
 
 namespace bladefit {
 namespace {

@@ -3,18 +3,18 @@
 #include <exception>
 #include <string>
 
-#include "tools/compile_command.hpp"
-#include "tools/design/design_error.hpp"
-#include "tools/exit_codes.hpp"
-#include "tools/localize_command.hpp"
-#include "tools/loft_command.hpp"
-#include "tools/panel_command.hpp"
-#include "tools/report_command.hpp"
-#include "tools/reproduce_command.hpp"
-#include "tools/run_command.hpp"
-#include "tools/sample_command.hpp"
-#include "tools/simulate_command.hpp"
-#include "tools/split_command.hpp"
+#include "tools/commands/compile_command.hpp"
+#include "tools/commands/localize_command.hpp"
+#include "tools/commands/loft_command.hpp"
+#include "tools/commands/panel_command.hpp"
+#include "tools/commands/report_command.hpp"
+#include "tools/commands/reproduce_command.hpp"
+#include "tools/commands/run_command.hpp"
+#include "tools/commands/sample_command.hpp"
+#include "tools/commands/simulate_command.hpp"
+#include "tools/commands/split_command.hpp"
+#include "tools/files/exit_codes.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "core/geometry/foot.hpp"
+#include "core/geometry/surface/foot.hpp"
 
 namespace bladefit {
 

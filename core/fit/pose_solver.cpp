@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/fit/cholesky.hpp"
-#include "core/fit/cross_matrix.hpp"
+#include "core/algebra/cholesky.hpp"
+#include "core/algebra/cross_matrix.hpp"
 
 namespace bladefit {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
+#include "core/algebra/symmetric_eigen.hpp"
 #include "core/fit/motion_lock.hpp"
-#include "core/fit/symmetric_eigen.hpp"
 
 namespace bladefit {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fit/cross_matrix.hpp"
+#include "core/algebra/cross_matrix.hpp"
 
 namespace bladefit {
 namespace {

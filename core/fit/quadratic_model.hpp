@@ -3,7 +3,7 @@
 
 #include "core/fit/loss.hpp"
 #include "core/fit/pose.hpp"
-#include "core/geometry/local_projection.hpp"
+#include "core/geometry/nearest/local_projection.hpp"
 
 namespace bladefit {
 

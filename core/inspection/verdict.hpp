@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "core/geometry/foot.hpp"
+#include "core/geometry/surface/foot.hpp"
 #include "core/inspection/tolerance_map.hpp"
 
 namespace bladefit {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "drivers/text_number.hpp"
+#include "drivers/text/text_number.hpp"
 
 namespace bladefit {
 namespace {

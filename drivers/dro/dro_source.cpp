@@ -6,8 +6,8 @@
 #include <cctype>
 
 #include "drivers/dro/dro_line.hpp"
-#include "drivers/host_clock.hpp"
-#include "drivers/source_fault.hpp"
+#include "drivers/source/host_clock.hpp"
+#include "drivers/source/source_fault.hpp"
 #include "drivers/source_uri.hpp"
 
 namespace bladefit {

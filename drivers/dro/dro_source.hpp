@@ -1,9 +1,9 @@
 #pragma once
 #include <string>
 
-#include "drivers/point_queue.hpp"
-#include "drivers/probe_source.hpp"
 #include "drivers/serial/lasting_port.hpp"
+#include "drivers/source/point_queue.hpp"
+#include "drivers/source/probe_source.hpp"
 
 namespace bladefit {
 

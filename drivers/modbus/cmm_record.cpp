@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "drivers/crc16.hpp"
-#include "drivers/direction.hpp"
 #include "drivers/modbus/number_codec.hpp"
+#include "drivers/source/crc16.hpp"
+#include "drivers/source/direction.hpp"
 
 namespace bladefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <thread>
 
-#include "drivers/host_clock.hpp"
 #include "drivers/modbus/cmm_requests.hpp"
-#include "drivers/source_fault.hpp"
+#include "drivers/source/host_clock.hpp"
+#include "drivers/source/source_fault.hpp"
 #include "drivers/source_uri.hpp"
 
 namespace bladefit {

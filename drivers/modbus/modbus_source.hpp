@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "drivers/back_off.hpp"
 #include "drivers/modbus/modbus_link.hpp"
 #include "drivers/modbus/ring_reader.hpp"
-#include "drivers/probe_source.hpp"
+#include "drivers/source/back_off.hpp"
+#include "drivers/source/probe_source.hpp"
 
 namespace bladefit {
 

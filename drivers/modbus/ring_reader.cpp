@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "drivers/modbus/cmm_record.hpp"
-#include "drivers/source_fault.hpp"
+#include "drivers/source/source_fault.hpp"
 
 namespace bladefit {
 namespace {

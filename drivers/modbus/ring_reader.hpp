@@ -4,8 +4,8 @@
 #include <span>
 
 #include "drivers/modbus/cmm_header.hpp"
-#include "drivers/point_queue.hpp"
-#include "drivers/probe_source.hpp"
+#include "drivers/source/point_queue.hpp"
+#include "drivers/source/probe_source.hpp"
 #include "drivers/source_settings.hpp"
 
 namespace bladefit {

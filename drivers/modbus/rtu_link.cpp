@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "drivers/crc16.hpp"
 #include "drivers/modbus/cmm_header.hpp"
 #include "drivers/serial/line_speed.hpp"
-#include "drivers/wait_ready.hpp"
+#include "drivers/source/crc16.hpp"
+#include "drivers/source/wait_ready.hpp"
 
 namespace bladefit {
 namespace {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "drivers/wait_ready.hpp"
+#include "drivers/source/wait_ready.hpp"
 
 namespace bladefit {
 

@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
-#include "drivers/csv_table.hpp"
-#include "drivers/direction.hpp"
-#include "drivers/read_file.hpp"
-#include "drivers/text_number.hpp"
+#include "drivers/source/direction.hpp"
+#include "drivers/text/csv_table.hpp"
+#include "drivers/text/read_file.hpp"
+#include "drivers/text/text_number.hpp"
 
 namespace bladefit {
 namespace {

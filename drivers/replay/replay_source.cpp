@@ -6,8 +6,8 @@
 #include <bit>
 #include <thread>
 
-#include "drivers/host_clock.hpp"
 #include "drivers/replay/points_csv.hpp"
+#include "drivers/source/host_clock.hpp"
 
 namespace bladefit {
 namespace {

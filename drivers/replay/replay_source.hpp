@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/probe_source.hpp"
+#include "drivers/source/probe_source.hpp"
 #include "drivers/source_settings.hpp"
 
 namespace bladefit {

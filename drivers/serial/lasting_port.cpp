@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "drivers/source_fault.hpp"
+#include "drivers/source/source_fault.hpp"
 
 namespace bladefit {
 

@@ -1,7 +1,7 @@
 #pragma once
-#include "drivers/back_off.hpp"
-#include "drivers/probe_source.hpp"
 #include "drivers/serial/serial_port.hpp"
+#include "drivers/source/back_off.hpp"
+#include "drivers/source/probe_source.hpp"
 
 namespace bladefit {
 

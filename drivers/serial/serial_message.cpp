@@ -5,10 +5,10 @@
 #include <array>
 #include <optional>
 
-#include "drivers/crc16.hpp"
-#include "drivers/direction.hpp"
 #include "drivers/serial/protocol_v1.hpp"
-#include "drivers/text_number.hpp"
+#include "drivers/source/crc16.hpp"
+#include "drivers/source/direction.hpp"
+#include "drivers/text/text_number.hpp"
 
 namespace bladefit {
 

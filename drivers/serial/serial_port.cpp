@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "drivers/serial/line_speed.hpp"
-#include "drivers/wait_ready.hpp"
+#include "drivers/source/wait_ready.hpp"
 
 namespace bladefit {
 namespace {

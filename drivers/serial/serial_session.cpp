@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "drivers/serial/protocol_v1.hpp"
-#include "drivers/source_fault.hpp"
+#include "drivers/source/source_fault.hpp"
 
 namespace bladefit {
 

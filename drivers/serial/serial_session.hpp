@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "drivers/point_queue.hpp"
-#include "drivers/probe_source.hpp"
 #include "drivers/serial/serial_message.hpp"
+#include "drivers/source/point_queue.hpp"
+#include "drivers/source/probe_source.hpp"
 #include "drivers/source_settings.hpp"
 
 namespace bladefit {

@@ -6,9 +6,9 @@
 #include <array>
 #include <thread>
 
-#include "drivers/host_clock.hpp"
 #include "drivers/serial/protocol_v1.hpp"
-#include "drivers/source_fault.hpp"
+#include "drivers/source/host_clock.hpp"
+#include "drivers/source/source_fault.hpp"
 #include "drivers/source_uri.hpp"
 
 namespace bladefit {

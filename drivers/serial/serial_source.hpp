@@ -1,11 +1,11 @@
 #pragma once
 #include <string>
 
-#include "drivers/probe_source.hpp"
 #include "drivers/serial/echo_filter.hpp"
 #include "drivers/serial/lasting_port.hpp"
 #include "drivers/serial/line_framer.hpp"
 #include "drivers/serial/serial_session.hpp"
+#include "drivers/source/probe_source.hpp"
 
 namespace bladefit {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware_bridge/host/host_shared.hpp"
-#include "firmware_bridge/host/journal.hpp"
+#include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/threads/host_shared.hpp"
 
 namespace bladefit {
 

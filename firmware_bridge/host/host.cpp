@@ -9,13 +9,13 @@
 #include <thread>
 
 #include "firmware_bridge/host/acquisition.hpp"
-#include "firmware_bridge/host/config_digest.hpp"
-#include "firmware_bridge/host/fit_stream.hpp"
-#include "firmware_bridge/host/fit_worker.hpp"
-#include "firmware_bridge/host/journal.hpp"
-#include "firmware_bridge/host/journal_writer.hpp"
-#include "firmware_bridge/host/publication.hpp"
-#include "firmware_bridge/host/session_folder.hpp"
+#include "firmware_bridge/host/fit/fit_stream.hpp"
+#include "firmware_bridge/host/fit/fit_worker.hpp"
+#include "firmware_bridge/host/journal/config_digest.hpp"
+#include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_writer.hpp"
+#include "firmware_bridge/host/journal/session_folder.hpp"
+#include "firmware_bridge/host/panel/publication.hpp"
 
 namespace bladefit {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/localizer.hpp"
-#include "drivers/probe_source.hpp"
-#include "firmware_bridge/host/host_shared.hpp"
-#include "firmware_bridge/host/panel_server.hpp"
+#include "drivers/source/probe_source.hpp"
+#include "firmware_bridge/host/panel/panel_server.hpp"
+#include "firmware_bridge/host/threads/host_shared.hpp"
 
 namespace bladefit {
 

@@ -6,7 +6,7 @@
 #include "tests/bench/peers/peer.hpp"
 #include "tests/bench/peers/textbook_surface.hpp"
 #include "tests/bench/table.hpp"
-#include "tests/unit/core_fixtures.hpp"
+#include "tests/support/localizer_fixtures.hpp"
 
 namespace bladefit::bench {
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/unit/core_fixtures.hpp"
+#include "tests/support/localizer_fixtures.hpp"
 
 namespace bladefit::bench {
 namespace {

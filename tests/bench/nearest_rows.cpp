@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/geometry/global_projection.hpp"
-#include "core/geometry/lane_projection.hpp"
+#include "core/geometry/nearest/global_projection.hpp"
+#include "core/geometry/nearest/lane_projection.hpp"
 #include "tests/bench/bench_case.hpp"
 
 namespace bladefit::bench {

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/unit/core_fixtures.hpp"
+#include "tests/support/localizer_fixtures.hpp"
 
 #ifdef BLADEFIT_DIGEST_PLAIN
-#include "core/lanes/lanes.hpp"
+#include "core/geometry/simd/lanes.hpp"
 // Stands in for that of the core, which the linker then leaves in its archive.
 bool bladefit::lanes_at_hand() { return false; }
 #endif

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "tests/golden/command_fixture.hpp"
-#include "tests/golden/reference_case.hpp"
+#include "tests/support/reference_case.hpp"
 
 namespace bladefit::testing {
 

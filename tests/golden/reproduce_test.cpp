@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/golden/command_fixture.hpp"
-#include "tests/golden/reference_case.hpp"
+#include "tests/support/reference_case.hpp"
 
 namespace bladefit::testing {
 namespace {

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "core/fit/pose.hpp"
-#include "core/geometry/surface.hpp"
+#include "core/geometry/surface/surface.hpp"
 #include "tests/golden/command_fixture.hpp"
-#include "tests/golden/reference_case.hpp"
+#include "tests/support/reference_case.hpp"
 
 namespace bladefit::testing {
 namespace {

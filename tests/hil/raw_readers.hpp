@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "drivers/modbus/cmm_map_v1.hpp"
-#include "tests/hil/process.hpp"
+#include "tests/support/process.hpp"
 #include "tools/simulate/check_sum.hpp"
 
 /// Readers of the simulated machine that know nothing of the drivers.

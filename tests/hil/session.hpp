@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/hil/process.hpp"
 #include "tests/hil/raw_readers.hpp"
+#include "tests/support/process.hpp"
 
 /// Sessions of `bladefit run` against `bladefit simulate`, both as real processes.
 namespace bladefit::hil {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "tools/design/iges_reader.hpp"
-#include "tools/design/step_reader.hpp"
+#include "tools/design/iges/iges_reader.hpp"
+#include "tools/design/step/step_reader.hpp"
 
 namespace bladefit {
 namespace {

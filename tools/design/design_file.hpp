@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/geometry/design_image.hpp"
-#include "tools/design/design_error.hpp"
-#include "tools/design/nurbs_surface.hpp"
+#include "core/geometry/surface/design_image.hpp"
+#include "tools/design/nurbs/nurbs_surface.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 

@@ -3,9 +3,9 @@
 #include <span>
 
 #include "tools/design/design_file.hpp"
-#include "tools/design/face_trim.hpp"
-#include "tools/design/image_writer.hpp"
-#include "tools/design/outward_side.hpp"
+#include "tools/design/image/image_writer.hpp"
+#include "tools/design/nurbs/outward_side.hpp"
+#include "tools/design/occ/face_trim.hpp"
 
 namespace bladefit {
 namespace {

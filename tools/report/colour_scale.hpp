@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "tools/report/session_report.hpp"
+#include "tools/results/session_report.hpp"
 
 namespace bladefit {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tools/report/words.hpp"
+#include "tools/results/words.hpp"
 
 namespace bladefit {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tools/report/report_text.hpp"
-#include "tools/report/words.hpp"
+#include "tools/results/words.hpp"
 
 namespace bladefit {
 namespace {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/report/session_report.hpp"
+#include "tools/results/session_report.hpp"
 
 namespace bladefit {
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "tools/report/colour_scale.hpp"
-#include "tools/report/session_report.hpp"
+#include "tools/results/session_report.hpp"
 
 namespace bladefit {
 

@@ -7,7 +7,7 @@
 
 #include "tools/report/findings.hpp"
 #include "tools/report/report_text.hpp"
-#include "tools/report/words.hpp"
+#include "tools/results/words.hpp"
 
 namespace bladefit {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "tools/report/colour_scale.hpp"
-#include "tools/report/session_report.hpp"
+#include "tools/results/session_report.hpp"
 
 namespace bladefit {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "tools/fit_result.hpp"
+#include "tools/batch/batch_fit.hpp"
 
 namespace bladefit {
 namespace {

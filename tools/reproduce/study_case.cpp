@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/replay/points_csv.hpp"
-#include "tools/design/image_writer.hpp"
+#include "tools/design/image/image_writer.hpp"
 
 namespace bladefit {
 namespace {

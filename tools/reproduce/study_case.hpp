@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/fit_options.hpp"
+#include "tools/batch/fit_options.hpp"
 
 namespace bladefit {
 

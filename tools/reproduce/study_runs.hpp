@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/fit_result.hpp"
+#include "tools/batch/batch_fit.hpp"
 #include "tools/reproduce/study_case.hpp"
 
 namespace bladefit {

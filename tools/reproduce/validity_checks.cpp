@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "tools/design/image_writer.hpp"
-#include "tools/design/surface_samples.hpp"
-#include "tools/fit_result.hpp"
+#include "tools/batch/batch_fit.hpp"
+#include "tools/design/image/image_writer.hpp"
+#include "tools/design/nurbs/surface_samples.hpp"
 
 namespace bladefit {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "tools/simulate/random_numbers.hpp"
+#include "tools/files/random_numbers.hpp"
 
 namespace bladefit::simulate {
 

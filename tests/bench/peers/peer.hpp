@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/fit/pose.hpp"
-#include "tools/design/nurbs_surface.hpp"
+#include "tools/design/nurbs/nurbs_surface.hpp"
 
 namespace bladefit::bench {
 

@@ -1,0 +1,49 @@
+#pragma once
+#include "core/geometry/nearest/local_projection.hpp"
+
+namespace bladefit {
+
+/// A point to be projected onto the whole design.
+struct ProjectionQuery {
+  Vec3 point = Vec3::Zero();     ///< r, in design coordinates [mm]
+  Vec3 approach = Vec3::Zero();  ///< unit vector from the probe to the material, in design coordinates; 0 = unknown
+  double margin = 0;             ///< rivals are sought up to this much farther than the nearest [mm]
+};
+
+/// The local minima that are hardly farther than the nearest. One that does not face the probe, but almost, is among
+/// them.
+struct Rivals {
+  /// No other is nearer than this much beyond the nearest; at most query.margin [mm]. While the point moves by less
+  /// than half of it, the local minimum it is tracked to stays the nearest.
+  double lead = 0;
+  /// None but the one at `place` is, so one of the two stays the nearest for half of this; at most a quarter of
+  /// query.margin [mm].
+  double lead_of_two = 0;
+  SurfacePlace place;  ///< of the next nearest, where lead < lead_of_two
+};
+
+struct GlobalProjection {
+  Projection nearest;
+  bool proven = false;  ///< false: the cap on pieces was reached; `nearest` is the best found
+  bool faces = true;    ///< false: no local minimum faces the probe, so `nearest` is the nearest of all
+  Rivals rivals;
+  std::uint32_t pieces = 0;  ///< pieces of leaves that were looked at, where their bounds did not suffice
+  bool exhausted = false;    ///< a cap was reached
+};
+
+/// Pieces that one search may look at. Typical is none; a point on the medial axis of a rounding needs the most.
+inline constexpr std::uint32_t kMaxPieces = 8192;
+
+/// The nearest point of the whole design, by branch and bound over the bounding tree and the bounds of its leaves and,
+/// where these do not suffice, over rectangles inside the leaves whose distance is bounded by Bernstein coefficients.
+/// With an approach vector: the nearest local minimum whose outward normal faces the probe, n . approach < 0 (thesis 4;
+/// 2 % thick blades need it); where there is none, the nearest point of all. `hint` (may be null) is a projection to
+/// start from; the answer does not depend on it beyond rounding. Proven to within 1e-10 of the half diagonal of the
+/// design.
+[[nodiscard]] GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query,
+                                              const Projection* hint);
+
+/// True where the outward normal of the projection faces the probe, or the approach is unknown.
+[[nodiscard]] bool faces_probe(const Surface& surface, const Projection& projection, const Vec3& approach);
+
+}  // namespace bladefit

@@ -1,0 +1,203 @@
+#include "core/geometry/nearest/local_projection.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/nearest/newton_walk.hpp"
+#include "core/geometry/surface/distance_quadratic.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr int kMaxEvaluations = 60;
+/// A tangential offset below this [half diagonals] counts as perpendicular.
+constexpr double kPerpendicular = 1e-11;
+
+struct Step {
+  double du = 0, dv = 0;
+  bool newton = false;  ///< a full second-order step: convergence is quadratic
+};
+
+DistanceQuadratic quadratic_of(const SurfacePoint& p, const Vec3& offset) {
+  return quadratic_at(p.s_u, p.s_v, p.s_uu, p.s_uv, p.s_vv, offset,
+                      [](const Vec3& a, const Vec3& b) { return a.dot(b); });
+}
+
+double step_1d(double g, double h, double m, bool& newton) {
+  newton = h > 1e-6 * m;
+  if (newton) return -g / h;
+  return m > 0.0 ? -g / m : 0.0;
+}
+
+/// Newton where the Hessian is positive definite, Gauss-Newton elsewhere, one variable alone where the other is held.
+Step step_of(const DistanceQuadratic& q, bool hold_u, bool hold_v) {
+  Step step;
+  if (hold_u && hold_v) return {0, 0, true};
+  if (hold_u) {
+    step.dv = step_1d(q.g_v, q.h_vv, q.m_vv, step.newton);
+    return step;
+  }
+  if (hold_v) {
+    step.du = step_1d(q.g_u, q.h_uu, q.m_uu, step.newton);
+    return step;
+  }
+  step.newton = q.newton_step(step.du, step.dv);
+  if (step.newton) return step;
+  const double det = q.m_uu * q.m_vv - q.m_uv * q.m_uv;
+  if (det > 1e-12 * q.m_uu * q.m_vv) {
+    step.du = -(q.m_vv * q.g_u - q.m_uv * q.g_v) / det;
+    step.dv = -(q.m_uu * q.g_v - q.m_uv * q.g_u) / det;
+    return step;
+  }
+  const double m = q.m_uu + q.m_vv;  // degenerate parametrisation: follow the gradient
+  if (m > 0.0) step = {-q.g_u / m, -q.g_v / m, false};
+  return step;
+}
+
+class Descent {
+ public:
+  Descent(const Surface& surface, const Vec3& r, const SurfacePlace& start, const ParameterLimits& limits)
+      : surface_(surface), r_(r), limits_(limits), scale_(surface.half_diagonal()) {
+    result_.place = start;
+    result_.at = surface_.evaluate(result_.place);
+    result_.offset = r_ - result_.at.s;
+  }
+
+  Projection run() {
+    for (int evaluations = 1; evaluations < kMaxEvaluations;) {
+      const DistanceQuadratic q = quadratic_of(result_.at, result_.offset);
+      hold_at_limits(q);
+      Step step = step_of(q, result_.fixed_u, result_.fixed_v);
+      step = blocked(q, step);
+      const double length = (result_.at.s_u * step.du + result_.at.s_v * step.dv).norm();
+      if (length <= kLastStep * scale_) {
+        finish(step);
+        result_.converged = step.newton;
+        break;
+      }
+      if (!descend(step, evaluations)) break;
+    }
+    return result_;
+  }
+
+ private:
+  /// Away from an edge by this much [mm] counts as a falling distance beyond it.
+  [[nodiscard]] bool falls(double gradient, const Vec3& tangent) const {
+    return std::abs(gradient) > kPerpendicular * scale_ * tangent.norm();
+  }
+
+  void hold_at_limits(const DistanceQuadratic& q) {
+    const SurfacePlace& p = result_.place;
+    const bool out_u = (p.u <= limits_.u_min && q.g_u > 0.0) || (p.u >= limits_.u_max && q.g_u < 0.0);
+    const bool out_v = (p.v <= limits_.v_min && q.g_v > 0.0) || (p.v >= limits_.v_max && q.g_v < 0.0);
+    result_.fixed_u = out_u && falls(q.g_u, result_.at.s_u);
+    result_.fixed_v = out_v && falls(q.g_v, result_.at.s_v);
+  }
+
+  /// A coupled step may lead out of the limits although the gradient does not: then that variable rests in this step.
+  [[nodiscard]] Step blocked(const DistanceQuadratic& q, const Step& step) const {
+    const SurfacePlace& p = result_.place;
+    const bool u = (p.u <= limits_.u_min && step.du < 0.0) || (p.u >= limits_.u_max && step.du > 0.0);
+    const bool v = (p.v <= limits_.v_min && step.dv < 0.0) || (p.v >= limits_.v_max && step.dv > 0.0);
+    if (!u && !v) return step;
+    return step_of(q, u || result_.fixed_u, v || result_.fixed_v);
+  }
+
+  void move_to(SurfacePlace& place, double u, double v) const {
+    place.u = std::clamp(u, limits_.u_min, limits_.u_max);
+    place.v = std::clamp(v, limits_.v_min, limits_.v_max);
+    surface_.settle(place);
+  }
+
+  bool descend(const Step& step, int& evaluations) {
+    const double before = result_.distance_squared();
+    const double rounding = kDistanceRounding * scale_;
+    const double slack = rounding * (std::sqrt(before) + rounding);
+    double fraction = 1.0;
+    for (int halvings = 0; halvings < 30 && evaluations < kMaxEvaluations; ++halvings, fraction *= 0.5) {
+      SurfacePlace place = result_.place;
+      move_to(place, place.u + fraction * step.du, place.v + fraction * step.dv);
+      const SurfacePoint at = surface_.evaluate(place);
+      ++evaluations;
+      const Vec3 offset = r_ - at.s;
+      if (offset.squaredNorm() > before + slack) continue;
+      result_.place = place;
+      result_.at = at;
+      result_.offset = offset;
+      return true;
+    }
+    return false;
+  }
+
+  void finish(const Step& step) {
+    const double u = result_.place.u, v = result_.place.v;
+    move_to(result_.place, u + step.du, v + step.dv);
+    const double du = result_.place.u - u, dv = result_.place.v - v;
+    SurfacePoint& p = result_.at;
+    p.s += du * p.s_u + dv * p.s_v;
+    p.s_u += du * p.s_uu + dv * p.s_uv;
+    p.s_v += du * p.s_uv + dv * p.s_vv;
+    result_.offset = r_ - p.s;
+  }
+
+  const Surface& surface_;
+  const Vec3& r_;
+  const ParameterLimits& limits_;
+  double scale_;
+  Projection result_;
+};
+
+}  // namespace
+
+Projection project_local(const Surface& surface, const Vec3& r, const SurfacePlace& start,
+                         const ParameterLimits& limits) {
+  Projection result;
+  SurfacePlace place = clamped(start, limits);
+  surface.settle(place);
+  if (!newton_walk(surface, r, limits, place, result)) result = Descent(surface, r, place, limits).run();
+  return result;
+}
+
+namespace {
+
+/// At a seam the offset may lean across it by this much [half diagonals] for a gap, and by this share for a bend.
+constexpr double kSeamGap = 1e-4, kSeamBend = 0.05;
+
+/// Directions in which a projection is held where the surface does end. One that is held at a seam but leans far across
+/// it is no foot of the whole surface, only of its patch: it stays on an edge.
+int held_at_ends(const Surface& surface, const Projection& projection) {
+  const std::uint32_t ends = surface.span(projection.place.span).ends;
+  const double most = kSeamGap * surface.half_diagonal() + kSeamBend * projection.offset.norm();
+  const auto held = [&](bool fixed, const Vec3& tangent, std::uint32_t seam) {
+    const bool upright = std::abs(projection.offset.dot(tangent)) <= most * tangent.norm();
+    return fixed && !((ends & seam) != 0 && upright) ? 1 : 0;
+  };
+  return held(projection.fixed_u, projection.at.s_u, projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU) +
+         held(projection.fixed_v, projection.at.s_v, projection.place.v <= 0.5 ? kSeamAtLowV : kSeamAtHighV);
+}
+
+}  // namespace
+
+Foot foot_of(const Surface& surface, const Projection& projection, double probe_radius) {
+  Foot foot;
+  foot.patch = surface.span(projection.place.span).patch;
+  foot.u = projection.place.u;
+  foot.v = projection.place.v;
+  foot.point = projection.at.s;
+  const int fixed = held_at_ends(surface, projection);
+  foot.kind = fixed == 0 ? FootKind::interior : fixed == 1 ? FootKind::edge : FootKind::corner;
+  if (foot.kind == FootKind::interior) {
+    foot.normal = surface.normal(projection.place, projection.at);
+    const double along = foot.normal.dot(projection.offset);
+    const bool at_seam = projection.fixed_u || projection.fixed_v;
+    foot.distance = (at_seam ? std::copysign(projection.offset.norm(), along) : along) - probe_radius;
+  } else {
+    const double length = projection.offset.norm();
+    foot.normal = projection.offset / length;
+    foot.distance = length - probe_radius;
+  }
+  return foot;
+}
+
+}  // namespace bladefit

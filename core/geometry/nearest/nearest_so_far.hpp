@@ -1,0 +1,46 @@
+#pragma once
+#include <limits>
+
+#include "core/geometry/nearest/global_projection.hpp"
+
+namespace bladefit {
+
+/// The nearest of the local minima a global search has met, its nearest rival and the distance of the next.
+class NearestSoFar {
+ public:
+  NearestSoFar(const Surface& surface, const ProjectionQuery& query);
+
+  /// Takes a local minimum into account. One that does not face the probe is no foot, and neither is a place where
+  /// Newton's method found no proper minimum: that is kept as a last resort.
+  void consider(const Projection& candidate);
+
+  [[nodiscard]] bool found() const { return found_; }
+  [[nodiscard]] const Projection& nearest() const { return nearest_; }
+  [[nodiscard]] double distance() const { return distance_; }
+  /// What is not nearer than this does not matter [mm].
+  [[nodiscard]] double limit() const { return found_ ? distance_ + margin_ - slack_ : kNowhere; }
+  [[nodiscard]] double slack() const { return slack_; }
+  [[nodiscard]] bool directed() const { return directed_; }
+
+  /// The outcome of a search that met everything nearer than limit().
+  [[nodiscard]] GlobalProjection result(bool exhausted, std::uint32_t pieces) const;
+
+ private:
+  void note_rival(const Projection& candidate, double distance);
+  [[nodiscard]] bool same(const Vec3& a, const Vec3& b) const;
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  const Surface& surface_;
+  const Vec3& approach_;
+  double margin_, slack_;
+  bool directed_, found_ = false, has_resort_ = false;
+  double distance_ = 0.0, rival_distance_ = kNowhere, third_distance_ = kNowhere;
+  Projection nearest_;
+  Vec3 rival_ = Vec3::Zero();  ///< on the surface
+  SurfacePlace rival_place_;
+  Projection resort_;  ///< the nearest place that is not a proper minimum
+};
+
+/// A local minimum whose normal is this near to facing the probe [rad] may come to face it while the point is tracked.
+inline constexpr double kAlmostFacing = 0.05;
+
+}  // namespace bladefit

@@ -1,0 +1,208 @@
+#include "core/geometry/surface/design_image.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "core/crc32.hpp"
+#include "core/geometry/nearest/bounding_tree.hpp"
+#include "core/geometry/surface/taylor.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Coefficients of a Taylor form may differ from their own by this share of the largest control point.
+constexpr double kTaylorRounding = 1e-12;
+
+/// True where `count` elements of T at `offset` lie inside the image, 8-byte aligned, behind the header.
+template <class T>
+bool array_fits(std::uint64_t offset, std::uint64_t count, std::uint64_t total) {
+  return offset % 8 == 0 && offset >= sizeof(ImageHeader) && offset <= total && count <= (total - offset) / sizeof(T);
+}
+
+template <class T>
+std::span<const T> view(std::span<const std::byte> bytes, std::uint64_t offset, std::uint64_t count) {
+  return {reinterpret_cast<const T*>(bytes.data() + offset), static_cast<std::size_t>(count)};
+}
+
+bool finite3(const double (&x)[3]) { return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]); }
+
+/// Finite, and not a single point: its half diagonal is the scale of all tolerances.
+bool box_valid(const ImageHeader& h) {
+  double size = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(h.box_min[axis] <= h.box_max[axis])) return false;
+    size += h.box_max[axis] - h.box_min[axis];
+  }
+  return finite3(h.box_min) && finite3(h.box_max) && size > 0.0;
+}
+
+bool breaks_valid(std::span<const double> breaks, std::uint64_t first, std::uint64_t spans) {
+  if (first > breaks.size() || spans + 1 > breaks.size() - first) return false;
+  const auto b = breaks.subspan(first, spans + 1);
+  for (std::size_t i = 0; i + 1 < b.size(); ++i) {
+    if (!(b[i] < b[i + 1])) return false;
+  }
+  return b.front() == 0.0 && b.back() == 1.0;
+}
+
+bool patches_valid(const DesignImage& image) {
+  std::uint64_t next_span = 0;
+  for (const ImagePatch& p : image.patches()) {
+    const bool degrees = p.degree_u >= 1 && p.degree_u <= kMaxDegree && p.degree_v >= 1 && p.degree_v <= kMaxDegree;
+    const bool spans = p.spans_u >= 1 && p.spans_v >= 1 && p.first_span == next_span;
+    if (!degrees || !spans || p.rational > 1) return false;
+    next_span += static_cast<std::uint64_t>(p.spans_u) * p.spans_v;
+    if (next_span > image.spans().size()) return false;
+    if (!breaks_valid(image.breaks(), p.first_break_u, p.spans_u)) return false;
+    if (!breaks_valid(image.breaks(), p.first_break_v, p.spans_v)) return false;
+  }
+  return next_span == image.spans().size();
+}
+
+bool cone_valid(const ImageSpan& s) {
+  if (!finite3(s.cone_axis) || !(s.cone_cosine >= -1.0 && s.cone_cosine <= 1.0)) return false;
+  const double n2 = s.cone_axis[0] * s.cone_axis[0] + s.cone_axis[1] * s.cone_axis[1] + s.cone_axis[2] * s.cone_axis[2];
+  return s.cone_cosine == -1.0 || std::abs(n2 - 1.0) < 1e-9;
+}
+
+/// Every number finite and every range the right way round. That the bounds hold is the compiler's promise, kept by the
+/// CRC: it cannot be checked at this cost.
+bool bounds_valid(const ImageBounds& b) {
+  const auto rises = [](const double* low, const double* high, int count) {
+    return std::equal(low, low + count, high,
+                      [](double l, double h) { return std::isfinite(l) && std::isfinite(h) && l <= h; });
+  };
+  bool valid = finite3(b.middle) && finite3(b.stretch) && b.stretch[0] > 0.0 && b.stretch[1] != 0.0 &&
+               rises(b.low, b.high, 3) && rises(b.self_low, b.self_high, 7);
+  for (const auto& axis : b.axis) valid = valid && finite3(axis);
+  for (const auto& derivative : b.derivative) valid = valid && finite3(derivative);
+  for (const auto& spread : b.spread) valid = valid && finite3(spread) && *std::min_element(spread, spread + 3) >= 0.0;
+  return valid;
+}
+
+/// The sides on the patch's edges are marked, seams among these, and nothing else is set.
+bool ends_valid(const ImageSpan& s, const ImagePatch& p) {
+  const std::uint32_t edges = (s.iu == 0 ? kEndsAtLowU : 0U) | (s.iu + 1 == p.spans_u ? kEndsAtHighU : 0U) |
+                              (s.iv == 0 ? kEndsAtLowV : 0U) | (s.iv + 1 == p.spans_v ? kEndsAtHighV : 0U);
+  return (s.ends & edges) == edges && s.ends < 256U && ((s.ends >> 4U) & ~edges) == 0;
+}
+
+/// Control points finite, weights positive.
+bool net_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p) {
+  const std::uint64_t count = static_cast<std::uint64_t>(p.degree_u + 1) * (p.degree_v + 1);
+  const auto coefficients = image.coefficients();
+  if (s.first_coefficient > coefficients.size() || 4 * count > coefficients.size() - s.first_coefficient) return false;
+  const double* first = &coefficients[s.first_coefficient];
+  for (const double* c = first; c != first + 4 * count; c += 4) {
+    const double w = c[3];
+    if (!(w > 0.0) || !std::isfinite(w) || (p.rational == 0 && w != 1.0)) return false;
+    for (int k = 0; k < 3; ++k) {
+      if (!std::isfinite(c[k] / w)) return false;
+    }
+  }
+  return true;
+}
+
+/// The Taylor form is that of the control points, but for rounding.
+bool taylor_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p) {
+  const std::size_t count = 4U * (p.degree_u + 1) * (p.degree_v + 1);
+  const double* net = &image.coefficients()[s.first_coefficient];
+  const double* found = &image.taylor()[s.first_coefficient];
+  std::array<double, 4 * kMaxOrder * kMaxOrder> expected;
+  taylor_form(net, p.degree_u, p.degree_v, expected.data());
+  double size = 0.0;
+  for (std::size_t k = 0; k < count; ++k) size = std::max(size, std::abs(net[k]));
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!(std::abs(found[k] - expected[k]) <= kTaylorRounding * size)) return false;
+  }
+  return true;
+}
+
+bool spans_valid(const DesignImage& image) {
+  for (std::size_t i = 0; i < image.spans().size(); ++i) {
+    const ImageSpan& s = image.spans()[i];
+    if (s.patch >= image.patches().size()) return false;
+    const ImagePatch& p = image.patches()[s.patch];
+    if (s.iu >= p.spans_u || s.iv >= p.spans_v ||
+        i != p.first_span + static_cast<std::uint64_t>(s.iu) * p.spans_v + s.iv)
+      return false;
+    if (!cone_valid(s) || !ends_valid(s, p) || !net_valid(image, s, p) || !taylor_valid(image, s, p)) return false;
+  }
+  return true;
+}
+
+bool rectangle_valid(const ImageLeaf& leaf) {
+  return leaf.s_min >= 0.0 && leaf.s_min < leaf.s_max && leaf.s_max <= 1.0 && leaf.t_min >= 0.0 &&
+         leaf.t_min < leaf.t_max && leaf.t_max <= 1.0;
+}
+
+/// The leaves of a span follow each other and cover its area: they are cut by halves, so that areas add up exactly.
+bool leaves_valid(const DesignImage& image) {
+  std::uint32_t span = 0;
+  double area = 0.0;
+  for (std::size_t i = 0; i < image.leaves().size(); ++i) {
+    const ImageLeaf& leaf = image.leaves()[i];
+    if (leaf.span != span || !rectangle_valid(leaf) || !bounds_valid(leaf.bounds)) return false;
+    area += (leaf.s_max - leaf.s_min) * (leaf.t_max - leaf.t_min);
+    if (area != 1.0) continue;
+    ++span;
+    area = 0.0;
+    if (span == image.spans().size()) return i + 1 == image.leaves().size();
+  }
+  return false;
+}
+
+Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
+  if (std::memcmp(h.magic, kImageMagic, sizeof kImageMagic) != 0) return Status::bad_magic;
+  if (h.version != kImageVersion) return Status::bad_version;
+  if (h.total_size != bytes.size()) return Status::bad_length;
+  if (image_crc(bytes) != h.crc32) return Status::bad_crc;
+  const bool arrays = array_fits<ImagePatch>(h.patches_offset, h.patch_count, h.total_size) &&
+                      array_fits<ImageSpan>(h.spans_offset, h.span_count, h.total_size) &&
+                      array_fits<ImageLeaf>(h.leaves_offset, h.leaf_count, h.total_size) &&
+                      array_fits<ImageNode>(h.nodes_offset, h.node_count, h.total_size) &&
+                      array_fits<double>(h.breaks_offset, h.break_count, h.total_size) &&
+                      array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size) &&
+                      array_fits<double>(h.taylor_offset, h.coefficient_count, h.total_size);
+  const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.leaf_count >= 1 && h.node_count >= 1;
+  const bool fields = h.spare == 0 && h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && box_valid(h);
+  return arrays && counts && fields ? Status::ok : Status::bad_content;
+}
+
+}  // namespace
+
+std::uint32_t image_crc(std::span<const std::byte> image) {
+  constexpr std::size_t field = offsetof(ImageHeader, crc32);
+  constexpr std::array<std::byte, sizeof(std::uint32_t)> zero{};
+  if (image.size() < field + zero.size()) return 0;
+  const std::uint32_t before = crc32(zero, crc32(image.first(field)));
+  return crc32(image.subspan(field + zero.size()), before);
+}
+
+Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {
+  if (bytes.data() == nullptr) return Status::null_argument;
+  if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) return Status::misaligned;
+  if (bytes.size() >= sizeof kImageMagic && std::memcmp(bytes.data(), kImageMagic, sizeof kImageMagic) != 0)
+    return Status::bad_magic;
+  if (bytes.size() < sizeof(ImageHeader)) return Status::bad_length;
+
+  DesignImage candidate;
+  candidate.header_ = reinterpret_cast<const ImageHeader*>(bytes.data());
+  const ImageHeader& h = *candidate.header_;
+  if (const Status status = header_status(bytes, h); status != Status::ok) return status;
+  candidate.patches_ = view<ImagePatch>(bytes, h.patches_offset, h.patch_count);
+  candidate.spans_ = view<ImageSpan>(bytes, h.spans_offset, h.span_count);
+  candidate.leaves_ = view<ImageLeaf>(bytes, h.leaves_offset, h.leaf_count);
+  candidate.nodes_ = view<ImageNode>(bytes, h.nodes_offset, h.node_count);
+  candidate.breaks_ = view<double>(bytes, h.breaks_offset, h.break_count);
+  candidate.coefficients_ = view<double>(bytes, h.coefficients_offset, h.coefficient_count);
+  candidate.taylor_ = view<double>(bytes, h.taylor_offset, h.coefficient_count);
+  if (!patches_valid(candidate) || !spans_valid(candidate) || !leaves_valid(candidate) || !tree_valid(candidate))
+    return Status::bad_content;
+  image = candidate;
+  return Status::ok;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,264 @@
+#include "core/programs/bounded_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/algebra/cholesky.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Columns of the caller's memory: 0..5 the gradient, then
+constexpr int kLower = 6, kUpper = 7, kWeight = 8;
+/// Steps below this share of the reach are rounding; steps above the second must not raise the merit.
+constexpr double kSettledBelow = 2e-11, kCheckedAbove = 1e-6;
+/// A merit may rise by this share and still count as the same.
+constexpr double kMeritRounding = 1e-12;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double sign_of(const ActiveSet::Entry& entry) { return entry.side == Side::upper ? 1.0 : -1.0; }
+
+}  // namespace
+
+void BoundedFit::attach(double* memory, std::uint32_t capacity) {
+  memory_ = memory;
+  capacity_ = capacity;
+}
+
+void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
+  mode_ = mode;
+  count_ = count;
+  reach_ = trust_ = reach;
+  active_ = ActiveSet();
+  curvature_.setZero();
+  penalty_ = 0;
+  has_last_ = curved_ = false;
+}
+
+void BoundedFit::resume(std::uint32_t count) {
+  count_ = count;
+  trust_ = reach_;
+  curvature_.setZero();
+  has_last_ = curved_ = false;
+}
+
+double BoundedFit::set_weight(std::uint32_t i, double weight) {
+  double& kept = column(kWeight)[i];
+  const double change = kept == weight ? 0.0 : std::abs(kept - weight) / std::max(kept, weight);
+  kept = weight;
+  return change;
+}
+
+double BoundedFit::weight(std::uint32_t i) const { return column(kWeight)[i]; }
+
+void BoundedFit::set_basis(const MotionBasis& basis) { basis_ = basis; }
+
+void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
+  const Vec6 gradient = basis_.free == 6 ? row.gradient : Vec6(basis_.directions.transpose() * row.gradient);
+  for (int k = 0; k < 6; ++k) column(k)[i] = gradient[k];
+  const double half = mode_ == FitMode::constrained ? column(kWeight)[i] : 0.0;
+  column(kLower)[i] = -half - row.distance;
+  column(kUpper)[i] = half - row.distance;
+  for (int k = 0; k < active_.count; ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    if (entry.index == static_cast<int>(i)) {
+      const Mat6& basis = basis_.directions;
+      curvature_ += entry.multiplier * sign_of(entry) * (basis.transpose() * row.bend * basis);
+    }
+  }
+}
+
+void BoundedFit::skip_row(std::uint32_t i) {
+  for (int k = 0; k < 6; ++k) column(k)[i] = 0.0;
+  column(kLower)[i] = -kInfinity;
+  column(kUpper)[i] = kInfinity;
+}
+
+/// Of a row that counts; NaN of one that does not.
+double BoundedFit::distance(std::uint32_t i) const { return -0.5 * (column(kLower)[i] + column(kUpper)[i]); }
+
+BoundedFit::Extremes BoundedFit::extremes() const {
+  Extremes out{kInfinity, -kInfinity};
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    const double d = distance(i);
+    if (std::isnan(d)) continue;
+    out.least = std::min(out.least, d);
+    out.most = std::max(out.most, d);
+  }
+  return out;
+}
+
+double BoundedFit::value() const {
+  if (mode_ == FitMode::range) {
+    const Extremes found = extremes();
+    return found.most - found.least;
+  }
+  double ratio = 0.0;
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    const double d = distance(i);
+    if (!std::isnan(d)) ratio = std::max(ratio, std::abs(d) / (mode_ == FitMode::minimax ? 1.0 : column(kWeight)[i]));
+  }
+  return ratio;
+}
+
+double BoundedFit::slack(std::uint32_t i) const {
+  const double d = distance(i);
+  if (std::isnan(d)) return kInfinity;
+  if (mode_ == FitMode::minimax) return value() - std::abs(d);
+  if (mode_ != FitMode::range) return value() - std::abs(d) / column(kWeight)[i];
+  const Extremes found = extremes();
+  return std::min(found.most - d, d - found.least);
+}
+
+double BoundedFit::merit(const QuadraticModel& model) const {
+  if (mode_ != FitMode::constrained) return value();
+  double violation = 0.0;
+  for (std::uint32_t i = 0; i < count_; ++i) violation = std::max({violation, column(kLower)[i], -column(kUpper)[i]});
+  return model.half_square + penalty_ * violation;
+}
+
+Constraints BoundedFit::constraints() const {
+  Constraints c;
+  c.variables = 6;
+  c.rows = {memory_,
+            static_cast<std::ptrdiff_t>(capacity_),
+            static_cast<int>(count_),
+            6,
+            column(kLower),
+            column(kUpper),
+            nullptr,
+            -1,
+            -1};
+  for (int k = 0; k < 6; ++k) {
+    c.upper[k] = k < basis_.free ? trust_ : 0.0;
+    c.lower[k] = -c.upper[k];
+  }
+  return c;
+}
+
+/// Adds the level or levels to the unknowns. Returns the gradient of the objective.
+Vec8 BoundedFit::set_levels(Constraints& c) const {
+  Vec8 gradient = Vec8::Unit(6);
+  c.variables = 7;
+  c.rows.lower_level = c.rows.upper_level = 6;
+  if (mode_ == FitMode::min_tolerance) c.rows.weight = column(kWeight);
+  if (mode_ == FitMode::range) {
+    c.variables = 8;
+    c.rows.upper_level = 7;
+    gradient[7] = 1.0;
+  }
+  return gradient;
+}
+
+/// min s with |d + J x| <= w s, or min s_high - s_low with s_low <= d + J x <= s_high.
+ActiveSetResult BoundedFit::solve_levels() const {
+  Constraints c = constraints();
+  const Vec8 gradient = set_levels(c);
+  ActiveSetResult result = minimize_linear(gradient, c, Vec8::Zero(), active_);
+  return curved_ && succeeded(result.status) ? solve_curved(result) : result;
+}
+
+/// The same with the curvature of the active distances, which decides where fewer than seven are active: Newton's step
+/// on the Lagrangian. Squares of the active constraints, which vanish where these hold, make the program convex.
+ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
+  Constraints c = constraints();
+  const Vec8 levels = set_levels(c);
+  double weight = curvature_.norm();
+  for (int attempt = 0; attempt < 4; ++attempt, weight *= 10.0) {
+    Mat8 hessian = Mat8::Zero();
+    hessian.topLeftCorner<6, 6>() = curvature_;
+    for (int k = c.variables; k < kMaxVariables; ++k) hessian(k, k) = 1.0;
+    Vec8 gradient = levels;
+    for (int k = 0; k < active_.count; ++k) {
+      const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+      if (entry.index >= static_cast<int>(count_)) continue;
+      const HalfSpace h = half_space(c, entry.index, entry.side);
+      hessian += weight * h.normal * h.normal.transpose();
+      gradient -= weight * h.offset * h.normal;
+    }
+    if (!CholeskyFactor<kMaxVariables>(hessian).positive_definite()) continue;
+    ActiveSetResult result = minimize_quadratic(hessian, gradient, c, active_);
+    if (!succeeded(result.status)) break;
+    result.objective = levels.dot(result.x);
+    result.residuals = kkt_residuals(nullptr, levels, c, result.x, result.active);
+    return result;
+  }
+  return linear;
+}
+
+/// min of the model with the curvature of the active constraints, |d + J x| <= tolerance. Where that is not convex the
+/// Gauss-Newton Hessian takes its place.
+ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
+  Mat8 hessian = Mat8::Identity();
+  Vec8 gradient = Vec8::Zero();
+  const Mat6& basis = basis_.directions;
+  gradient.head<6>() = basis.transpose() * model.gradient;
+  const Mat6 gauss = basis.transpose() * model.gauss * basis;
+  const Mat6 exact = basis.transpose() * (model.gauss + model.bend) * basis + curvature_;
+  hessian.topLeftCorner<6, 6>() = Cholesky(exact).positive_definite() ? exact : gauss;
+  return minimize_quadratic(hessian, gradient, constraints(), active_);
+}
+
+/// True where the last step raised the merit: a quarter of it, from where it started.
+bool BoundedFit::retreat(double merit, Step& step) {
+  const bool checked = has_last_ && last_step_.norm() > kCheckedAbove * reach_;
+  if (!checked || merit <= last_merit_ * (1.0 + kMeritRounding)) return false;
+  last_step_ *= 0.25;
+  trust_ = last_step_.lpNorm<Eigen::Infinity>();
+  curved_ = true;
+  step.x = last_step_;
+  step.from_last = true;
+  return true;
+}
+
+/// Steps whose promise was kept may become longer, others shorter.
+void BoundedFit::adapt_trust(double merit) {
+  if (!has_last_ || mode_ == FitMode::constrained) return;
+  const double kept = last_merit_ - merit, promised = last_merit_ - last_promise_;
+  const double length = last_step_.lpNorm<Eigen::Infinity>();
+  if (kept > 0.75 * promised) trust_ = std::min(reach_, std::max(trust_, 2.0 * length));
+  if (kept >= 0.25 * promised || length <= kCheckedAbove * reach_) return;
+  trust_ = 0.5 * length;
+  curved_ = true;
+}
+
+BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
+  Step step;
+  const double present = merit(model);
+  if (retreat(present, step)) {
+    curvature_.setZero();
+    return step;
+  }
+  adapt_trust(present);
+  const ActiveSetResult result = mode_ == FitMode::constrained ? solve_bounds(model) : solve_levels();
+  curvature_.setZero();
+  step.status = result.status;
+  if (!succeeded(result.status)) return step;
+  active_ = result.active;
+  stationarity_ = result.residuals.stationarity;
+  for (int k = 0; k < active_.count; ++k)
+    penalty_ = std::max(penalty_, 10.0 * active_.entries[static_cast<std::size_t>(k)].multiplier);
+  step.x = basis_.directions * result.x.head<6>();
+  step.settled = step.x.norm() <= kSettledBelow * reach_;
+  has_last_ = true;
+  last_merit_ = mode_ == FitMode::constrained ? merit(model) : present;
+  last_promise_ = result.objective;
+  last_step_ = step.x;
+  return step;
+}
+
+Certificate BoundedFit::certificate() const {
+  Certificate out;
+  for (int k = 0; k < active_.count && out.count < out.sequence.size(); ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    if (entry.index >= static_cast<int>(count_)) continue;  // the bound of a step
+    out.sequence[out.count] = static_cast<std::uint32_t>(entry.index);
+    out.multiplier[out.count] = entry.multiplier;
+    out.sign[out.count] = entry.side == Side::upper ? 1 : -1;
+    ++out.count;
+  }
+  return out;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,91 @@
+#pragma once
+#include "core/fit/fit_mode.hpp"
+#include "core/fit/motion_lock.hpp"
+#include "core/fit/quadratic_model.hpp"
+#include "core/programs/active_set.hpp"
+
+namespace bladefit {
+
+/// Fits whose objective or constraints bound single distances, by a sequence of linear or quadratic programs: at each
+/// pose every distance is replaced by its expansion, the program is solved, the pose moves. With as many active points
+/// as unknowns, as is usual, linear programs end quadratically; the constrained optimum does by the exact Hessian of
+/// its Lagrangian. Rows live in the caller's memory.
+class BoundedFit {
+ public:
+  /// Doubles of the caller's memory a point needs: six of its gradient, two bounds, its weight.
+  static constexpr std::size_t kDoublesPerPoint = 9;
+
+  void attach(double* memory, std::uint32_t capacity);
+
+  /// Begins a fit of mode minimax, range, min_tolerance or constrained over `count` points. `reach` [mm]: the pose
+  /// moves no farther in one step.
+  void begin(FitMode mode, std::uint32_t count, double reach);
+  /// Goes on with `count` points, some of them new: from the present active set, with nothing to compare a step with.
+  void resume(std::uint32_t count);
+  [[nodiscard]] FitMode mode() const { return mode_; }
+
+  /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again; a point of
+  /// weight 0 must be skipped. Returns how much it changed, relative to the larger one.
+  double set_weight(std::uint32_t i, double weight);
+  [[nodiscard]] double weight(std::uint32_t i) const;
+  /// Steps go along the free directions of the basis only. Given before the rows of a pose.
+  void set_basis(const MotionBasis& basis);
+  /// The row of point i at the present pose.
+  void set_row(std::uint32_t i, const DistanceRow& row);
+  /// Point i does not count.
+  void skip_row(std::uint32_t i);
+
+  struct Step {
+    Status status = Status::ok;  ///< of the program; not ok: no step
+    Vec6 x = Vec6::Zero();       ///< from the pose of `from_last` or the present one
+    bool from_last = false;      ///< the last step made things worse: a shorter one from the same pose
+    bool settled = false;        ///< the step is rounding: the present pose is the optimum
+  };
+  /// After all rows were set: the next step. `model`: sum of 1/2 d^2 about the present pose.
+  /// Cost: some ten passes over the rows.
+  [[nodiscard]] Step step(const QuadraticModel& model);
+
+  /// At the present rows: max |d|, max d - min d, max |d| / w, or for constrained max |d| / tolerance.
+  [[nodiscard]] double value() const;
+
+  /// Smallest and largest signed distance [mm].
+  struct Extremes {
+    double least = 0, most = 0;
+  };
+  [[nodiscard]] Extremes extremes() const;
+  /// How far row i is from its bound, in its own weight; infinite where it does not count.
+  [[nodiscard]] double slack(std::uint32_t i) const;
+
+  /// The active points of the last program; `sequence` holds row numbers.
+  [[nodiscard]] Certificate certificate() const;
+  /// Of the last program, at the optimum also of the fit: relative stationarity of the Karush-Kuhn-Tucker conditions.
+  [[nodiscard]] double stationarity() const { return stationarity_; }
+
+ private:
+  [[nodiscard]] bool retreat(double merit, Step& step);
+  void adapt_trust(double merit);
+  [[nodiscard]] Constraints constraints() const;
+  [[nodiscard]] Vec8 set_levels(Constraints& constraints) const;
+  [[nodiscard]] ActiveSetResult solve_levels() const;
+  [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
+  [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
+  [[nodiscard]] double distance(std::uint32_t i) const;
+  [[nodiscard]] double merit(const QuadraticModel& model) const;
+  [[nodiscard]] double* column(int k) const { return memory_ + static_cast<std::size_t>(k) * capacity_; }
+
+  double* memory_ = nullptr;
+  std::uint32_t capacity_ = 0, count_ = 0;
+  FitMode mode_ = FitMode::minimax;
+  MotionBasis basis_;             ///< the unknowns are y in x = directions y
+  double reach_ = 0, trust_ = 0;  ///< trust: how far the expansions have held [mm]
+  ActiveSet active_;
+  Mat6 curvature_ = Mat6::Zero();  ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points
+  double penalty_ = 0;             ///< of a violated tolerance, above the sum of the multipliers
+  bool has_last_ = false;
+  bool curved_ = false;  ///< linear programs have promised too much: their curvature is taken into account
+  double last_merit_ = 0, last_promise_ = 0;  ///< before the last step, and after it by the expansions
+  Vec6 last_step_ = Vec6::Zero();
+  double stationarity_ = 0;
+};
+
+}  // namespace bladefit

@@ -1,0 +1,37 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/text/csv_text.hpp"
+
+namespace bladefit {
+
+/// A CSV file whose first line names its columns, in any order. Lines that begin with # and empty ones are passed over.
+struct CsvFormat {
+  std::span<const std::string_view> columns;  ///< names that the file may have
+  std::size_t needed = 0;                     ///< the first so many must be there,
+  std::size_t together = 0;                   ///< and those from there to this one all or none
+  std::string_view mend;                      ///< what the first line must be, for messages
+};
+
+/// One line of values.
+struct CsvRow {
+  CsvPlace place;
+  std::vector<std::size_t> columns;     ///< of each cell, as an index into CsvFormat::columns
+  std::vector<std::string_view> cells;  ///< without blanks around them
+};
+
+/// Hands every row of `text` to `take`, which returns what is wrong with it, or nothing. `name`: of the file.
+/// Returns the first error, empty = none; a file without a line of names is one, a file without rows is not.
+[[nodiscard]] std::string read_csv_table(std::string_view text, std::string_view name, const CsvFormat& format,
+                                         const std::function<std::string(const CsvRow&)>& take);
+
+/// The number in a cell; where there is none, `error` says so.
+[[nodiscard]] std::optional<double> finite_cell(const CsvRow& row, std::size_t cell, const CsvFormat& format,
+                                                std::string& error);
+
+}  // namespace bladefit

@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+
+#include "core/localizer.hpp"
+#include "firmware_bridge/host/threads/stream_event.hpp"
+
+namespace bladefit {
+
+/// Feeds a stream to a localizer. Which calls it makes, and in which order, follows from the stream alone, never from
+/// the clock or from how the stream was cut into portions; so the same stream gives the same verdicts, bit for bit.
+/// One thread owns it. No call allocates, locks or throws.
+class FitStream {
+ public:
+  /// `path_refine_points`: how many stored points are projected anew at most when a path has ended; none are when there
+  /// are more points than that.
+  FitStream(Localizer& localizer, std::uint32_t path_refine_points)
+      : localizer_(localizer), path_refine_points_(path_refine_points) {}
+
+  /// Pushes a point. True when `verdict` is the one of this point; a record that cannot be used gets the state
+  /// `rejected`. False for a sequence number that is not above the last one: nothing has changed.
+  [[nodiscard]] bool push(const ProbePoint& point, Verdict& verdict);
+
+  /// To be called after every push, when the verdict is on its way: projects stored points anew when that point was
+  /// the first of another path. It is apart from push() so that the verdict does not wait for it.
+  void end_path();
+
+  /// Projects until the fit has converged, or a generous cap is reached. Does nothing when no point has come since.
+  void settle();
+
+  void reset();
+
+  [[nodiscard]] Localizer& localizer() { return localizer_; }
+
+ private:
+  Localizer& localizer_;
+  std::uint32_t path_refine_points_;
+  std::uint16_t path_ = 0;  // 0 = unknown
+  bool path_ended_ = false;
+  bool settled_ = true;
+};
+
+}  // namespace bladefit

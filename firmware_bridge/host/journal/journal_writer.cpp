@@ -1,0 +1,46 @@
+#include "firmware_bridge/host/journal/journal_writer.hpp"
+
+#include <array>
+
+namespace bladefit {
+namespace {
+
+constexpr std::chrono::milliseconds kWait{100};
+
+struct Group {
+  std::array<StreamEvent, kJournalGroup> events;
+  std::size_t count = 0;
+  std::uint32_t last_sequence = 0;
+};
+
+void take_group(Ring<StreamEvent>& ring, Group& group) {
+  group.count = 0;
+  while (group.count < kJournalGroup && ring.pop(group.events[group.count])) {
+    const StreamEvent& event = group.events[group.count++];
+    if (event.kind == EventKind::point) group.last_sequence = event.point.sequence;
+  }
+}
+
+}  // namespace
+
+void write_journal(Journal& journal, HostShared& shared) {
+  Group group;
+  while (true) {
+    const bool closed = shared.journal_closed.load();
+    take_group(shared.to_journal, group);
+    if (group.count == 0) {
+      if (closed) return;
+      shared.journal_wakeup.wait(kWait);
+      continue;
+    }
+    if (const HostError error = journal.append(std::span(group.events).first(group.count))) {
+      shared.fail(error);
+      return;
+    }
+    if (group.last_sequence != 0) shared.stored_sequence.store(group.last_sequence);
+    shared.stored_events.fetch_add(group.count);
+    shared.stored_wakeup.signal();
+  }
+}
+
+}  // namespace bladefit

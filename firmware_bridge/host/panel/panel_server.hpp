@@ -1,0 +1,73 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "firmware_bridge/host/panel/panel_protocol.hpp"
+#include "firmware_bridge/host/threads/host_error.hpp"
+
+namespace bladefit {
+
+struct PanelServerSettings {
+  std::string host = "127.0.0.1";    ///< address to listen at; Modbus has no authentication, so loopback by default
+  std::uint16_t port = 1503;         ///< 0 = any free port
+  bool commands = false;             ///< whether clients may press the coils
+  std::vector<std::string> allow{};  ///< numeric addresses that may connect; empty = every one that reaches `host`
+};
+
+/// Reads "HOST:PORT", "[IPV6]:PORT". False, and the arguments as before, when `text` is neither.
+[[nodiscard]] bool parse_address(const std::string& text, std::string& host, std::uint16_t& port);
+
+/// Modbus TCP server of the panel. It speaks the protocol itself, because the server half of libmodbus waits for slow
+/// clients and sleeps after a bad request; here no socket call waits, so that no client can hold up another one or the
+/// host. One thread owns it.
+class PanelServer {
+ public:
+  static constexpr std::size_t kMostClients = 16;
+
+  PanelServer() = default;
+  ~PanelServer();
+  PanelServer(const PanelServer&) = delete;
+  PanelServer& operator=(const PanelServer&) = delete;
+
+  /// Starts to listen. bad_input for an address that does not exist here, `device` for a port in use.
+  [[nodiscard]] HostError open(const PanelServerSettings& settings);
+
+  /// The port listened at.
+  [[nodiscard]] std::uint16_t port() const { return port_; }
+
+  /// Waits until a client wants something, `wakeup_descriptor` becomes readable, or `timeout` is over.
+  void wait(int wakeup_descriptor, std::chrono::milliseconds timeout);
+
+  /// Serves, from the image, what wait() found. Each client gets a few answers a call, however many it asks for.
+  void serve(const PanelImage& image, const std::function<void(const PanelCommands&)>& on_commands);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Client {
+    int descriptor = -1;
+    std::vector<std::uint8_t> received;
+    std::vector<std::uint8_t> unsent;
+    Clock::time_point last_request;
+    bool readable = false, writable = false;
+  };
+
+  void accept_clients();
+  void add_client(int descriptor);
+  [[nodiscard]] bool make_room();
+  [[nodiscard]] bool is_allowed(const std::string& address) const;
+  [[nodiscard]] bool serve_client(Client& client, const PanelImage& image,
+                                  const std::function<void(const PanelCommands&)>& on_commands) const;
+  [[nodiscard]] bool answer(Client& client, const PanelImage& image,
+                            const std::function<void(const PanelCommands&)>& on_commands) const;
+
+  PanelServerSettings settings_;
+  std::uint16_t port_ = 0;
+  int listener_ = -1;
+  bool connection_waiting_ = false;
+  std::vector<Client> clients_;
+};
+
+}  // namespace bladefit

@@ -1,0 +1,150 @@
+#include "firmware_bridge/host/panel/publication.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bladefit {
+namespace {
+
+constexpr std::chrono::milliseconds kLongestWait{100};
+
+float to_float(double value) { return static_cast<float>(value); }
+
+PanelPlace place_of(const Verdict& verdict) {
+  const Foot& foot = verdict.foot;
+  return {.sequence = verdict.sequence,
+          .distance = to_float(foot.distance),
+          .patch = static_cast<std::uint16_t>(foot.patch),
+          .u = to_float(foot.u),
+          .v = to_float(foot.v),
+          .radius = to_float(std::hypot(foot.point.y(), foot.point.z())),
+          .action = verdict.action};
+}
+
+}  // namespace
+
+Publication::Publication(const ToleranceMap& tolerance, PanelServer& server, HostShared& shared)
+    : tolerance_(tolerance), server_(server), shared_(shared) {}
+
+void Publication::run() {
+  const auto on_commands = [this](const PanelCommands& commands) { follow(commands); };
+  while (true) {
+    const bool last_turn = shared_.panel_closed.load() && shared_.fit_done.load();
+    shared_.publication_wakeup.clear();
+    take_news();
+    update_state();
+    server_.serve(encode_panel(state_), on_commands);
+    if (last_turn) return;
+    server_.wait(shared_.publication_wakeup.descriptor(), kLongestWait);
+  }
+}
+
+void Publication::take_news() {
+  FitOutput output;
+  while (shared_.to_publication.pop(output)) {
+    if (output.forget) {
+      tally_.clear();
+      last_sequence_ = 0;
+      continue;
+    }
+    tally_.accept(output.verdict);
+    last_sequence_ = std::max(last_sequence_, output.verdict.sequence);
+  }
+  // Figures are taken after the verdicts: they are never older than those.
+  [[maybe_unused]] const bool newer_fit = shared_.fit_figures.take(figures_);
+  [[maybe_unused]] const bool newer_link = shared_.link_figures.take(link_);
+}
+
+void Publication::update_state() {
+  update_counts();
+  update_fit();
+  update_last();
+  update_places();
+  state_.session = session_state();
+  state_.alarms = alarms();
+  const auto running = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - start_).count();
+  state_.heartbeat = static_cast<std::uint16_t>(running);
+}
+
+void Publication::update_counts() {
+  const TallyCounts& counts = tally_.counts();
+  state_.points = counts.points;
+  state_.leading_edge_points = counts.leading_edge;
+  state_.leading_edge_out = counts.leading_edge_out;
+  state_.rest_out = counts.rest_out;
+  state_.rejected = counts.rejected;
+}
+
+void Publication::update_fit() {
+  const FitReport& report = figures_.report;
+  state_.fit_status = static_cast<std::uint16_t>(report.status);
+  state_.rms = to_float(report.rms_mm);
+  state_.leading_edge_rms = to_float(report.leading_edge.rms_mm);
+  state_.worst_leading_edge = to_float(report.leading_edge.worst_mm);
+  state_.worst_leading_edge_sequence = report.leading_edge.worst_sequence;
+  state_.worst_rest = to_float(report.rest.worst_mm);
+  state_.worst_rest_sequence = report.rest.worst_sequence;
+  const EulerAngles angles = euler_angles(report.pose.rotation);
+  const Vec3& shift = report.pose.translation;
+  state_.pose = {to_float(shift.x()),  to_float(shift.y()),    to_float(shift.z()),
+                 to_float(angles.psi), to_float(angles.theta), to_float(angles.phi)};
+  state_.determined = static_cast<std::uint16_t>(report.determined);
+  state_.smallest_feasible = to_float(report.smallest_tolerance_mm);
+  state_.improving = report.improving;
+  state_.support = report.certificate.sequence;
+  state_.leading_edge_tolerance = to_float(tolerance_.leading_edge_mm);
+  state_.rest_tolerance = to_float(tolerance_.rest_mm);
+  state_.push_latency_us = to_float(figures_.push_p99_us);
+}
+
+void Publication::update_last() {
+  const Verdict* const last = tally_.find(last_sequence_);
+  const Verdict verdict = last != nullptr ? *last : Verdict{};
+  state_.last_sequence = verdict.sequence;
+  state_.last_distance = to_float(verdict.foot.distance);
+  state_.last_state = verdict.state;
+  state_.last_action = verdict.action;
+  state_.last_region = verdict.region;
+}
+
+void Publication::update_places() {
+  state_.newest.fill({});
+  const auto out = tally_.leading_edge_out();
+  const std::size_t count = std::min(out.size(), kPanelPlaces);
+  for (std::size_t place = 0; place < count; ++place) {
+    const Verdict* const verdict = tally_.find(out[out.size() - 1 - place]);
+    if (verdict != nullptr) state_.newest[place] = place_of(*verdict);
+  }
+}
+
+SessionState Publication::session_state() {
+  if (shared_.failed.load() || link_.device_fault) return SessionState::fault;
+  if (link_.paused) return SessionState::idle;
+  if (link_.link == LinkState::connecting) return SessionState::connecting;
+  if (figures_.report.status == FitStatus::underdetermined) return SessionState::collecting;
+  return figures_.report.status == FitStatus::converged ? SessionState::settled : SessionState::tracking;
+}
+
+std::uint16_t Publication::alarms() const {
+  const FitReport& report = figures_.report;
+  const bool seen = tally_.times_out() == acknowledged_times_out_;
+  unsigned bits = 0;
+  if (state_.leading_edge_out > 0 && !seen) bits |= kAlarmLeadingEdgeOut;
+  if (state_.rest_out > 0 && !seen) bits |= kAlarmRestOut;
+  if (link_.link == LinkState::lost) bits |= kAlarmLinkLost;
+  if (link_.losses != acknowledged_losses_) bits |= kAlarmDataGap;
+  if (report.memory_full) bits |= kAlarmMemoryFull;
+  if (report.status == FitStatus::infeasible) bits |= kAlarmInfeasible;
+  return static_cast<std::uint16_t>(bits);
+}
+
+void Publication::follow(const PanelCommands& commands) {
+  if (commands.start) shared_.paused.store(false);
+  if (commands.stop) shared_.paused.store(true);
+  if (commands.reset) shared_.reset_requested.store(true);
+  if (!commands.acknowledge) return;
+  acknowledged_times_out_ = tally_.times_out();
+  acknowledged_losses_ = link_.losses;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,239 @@
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "drivers/make_source.hpp"
+#include "drivers/serial/serial_message.hpp"
+#include "tests/unit/drivers/collecting.hpp"
+#include "tests/unit/drivers/raw_terminal.hpp"
+
+namespace bladefit {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// The machine's end of a pseudo terminal, with a link to the host's end that stays when it is plugged in again.
+class Cable {
+ public:
+  Cable() {
+    std::string name = "/tmp/bladefit_cable_XXXXXX";
+    folder_ = ::mkdtemp(name.data());
+    device = folder_ + "/port";
+    plug_in();
+  }
+
+  ~Cable() {
+    pull();
+    std::filesystem::remove_all(folder_);
+  }
+
+  void plug_in() { std::filesystem::create_symlink(open_raw_terminal(machine_, host_), device); }
+
+  void pull() {
+    if (machine_ < 0) return;
+    std::filesystem::remove(device);
+    ::close(machine_);
+    ::close(host_);
+    machine_ = host_ = -1;
+  }
+
+  void write(const std::string& text) const {
+    ASSERT_EQ(::write(machine_, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  }
+
+  /// What the host has sent.
+  [[nodiscard]] std::string read() const {
+    std::string text;
+    pollfd entry{machine_, POLLIN, 0};
+    std::array<char, 512> bytes{};
+    while (::poll(&entry, 1, 20) > 0) {
+      const ssize_t count = ::read(machine_, bytes.data(), bytes.size());
+      if (count <= 0) break;
+      text.append(bytes.data(), static_cast<std::size_t>(count));
+    }
+    return text;
+  }
+
+  std::string device;
+
+ private:
+  std::string folder_;
+  int machine_ = -1, host_ = -1;
+};
+
+std::string point_line(int sequence) { return encode_line("PT," + std::to_string(sequence) + ",1.25,2,3,0,0,1,9"); }
+
+SourceSettings serial_settings(const Cable& cable) {
+  SourceSettings settings;
+  settings.kind = SourceKind::serial;
+  settings.line.device = cable.device;
+  settings.serial.start_interval = milliseconds(50);
+  settings.serial.open_timeout = milliseconds(300);
+  settings.serial.reconnect_first = milliseconds(10);
+  return settings;
+}
+
+/// Opens while the machine, which is in run 3, answers the start.
+std::string open_answered(ProbeSource& source, const Cable& cable, std::uint32_t after = 0, std::uint32_t run_id = 0) {
+  std::thread machine([&cable] {
+    std::this_thread::sleep_for(milliseconds(20));
+    cable.write(encode_line("RUN,3"));
+  });
+  std::string message = source.open(after, run_id).message;
+  machine.join();
+  return message;
+}
+
+TEST(SerialSource, TalksWithTheMachine) {
+  const Cable cable;
+  const auto source = make_source(serial_settings(cable));
+  ASSERT_EQ(open_answered(*source, cable), "");
+  EXPECT_EQ(cable.read().find("$START,1*"), 0U);
+  EXPECT_EQ(source->status().run_id, 3U);
+  cable.write(point_line(1) + "noise\x80\n" + point_line(2) + point_line(4));
+  EXPECT_EQ(collect(*source, 2), (Sequences{1, 2}));
+  source->acknowledge(2);
+  EXPECT_EQ(collect(*source, 1, milliseconds(20)), Sequences{});
+  const std::string sent = cable.read();
+  EXPECT_NE(sent.find("$NAK,3*"), std::string::npos) << sent;
+  EXPECT_NE(sent.find("$ACK,2*"), std::string::npos) << sent;
+  cable.write(point_line(3) + encode_line("END,4"));
+  EXPECT_EQ(collect(*source, 2), (Sequences{3, 4}));
+  static_cast<void>(collect(*source, 1, milliseconds(20)));
+  EXPECT_TRUE(source->status().finished);
+  source->acknowledge(4);
+  std::thread machine([&cable] {
+    const std::string last = cable.read();
+    EXPECT_NE(last.find("$ACK,4*"), std::string::npos) << last;
+    EXPECT_NE(last.find("$STOP*BC64"), std::string::npos) << last;
+  });
+  source->close();
+  machine.join();
+}
+
+/// Nothing of the run that the device is in is stored: it is not told so, and its program is not stopped.
+TEST(SerialSource, LeavesADeviceInAnotherRunAlone) {
+  const Cable cable;
+  const auto source = make_source(serial_settings(cable));
+  ASSERT_EQ(open_answered(*source, cable, 30, 0), "");
+  EXPECT_EQ(source->status().run_id, 3U);
+  source->acknowledge(30);
+  source->close();
+  const std::string sent = cable.read();
+  EXPECT_EQ(sent.find("$ACK"), std::string::npos) << sent;
+  EXPECT_EQ(sent.find("$STOP"), std::string::npos) << sent;
+}
+
+TEST(SerialSource, ComesBackAfterTheCableWasPulled) {
+  Cable cable;
+  const auto source = make_source(serial_settings(cable));
+  ASSERT_EQ(open_answered(*source, cable), "");
+  cable.write(point_line(1));
+  EXPECT_EQ(collect(*source, 1), (Sequences{1}));
+  cable.pull();
+  static_cast<void>(collect(*source, 1, milliseconds(60)));
+  EXPECT_EQ(source->status().link, LinkState::lost);
+  cable.plug_in();
+  std::thread machine([&cable] {
+    std::this_thread::sleep_for(milliseconds(200));
+    cable.write(encode_line("RUN,3") + point_line(1) + point_line(2));
+  });
+  EXPECT_EQ(collect(*source, 1), (Sequences{2}));
+  machine.join();
+  EXPECT_EQ(source->status().link, LinkState::up);
+  EXPECT_EQ(source->status().reconnects, 1U);
+}
+
+TEST(SerialSource, TakesItsEchoOut) {
+  const Cable cable;
+  SourceSettings settings = serial_settings(cable);
+  settings.serial.echo = true;
+  const auto source = make_source(settings);
+  std::thread machine([&cable] {
+    std::this_thread::sleep_for(milliseconds(20));
+    cable.write(encode_line("START,1") + encode_line("RUN,3") + point_line(1));
+  });
+  EXPECT_EQ(source->open(0, 0).message, "");
+  machine.join();
+  EXPECT_EQ(collect(*source, 1), (Sequences{1}));
+  EXPECT_EQ(source->status().damaged, 0U) << source->status().last_fault;
+}
+
+TEST(SerialSourceErrors, NameTheDeviceAndTheMend) {
+  const Cable cable;
+  const SourceSettings settings = serial_settings(cable);
+  const auto opened = [](const SourceSettings& wanted) { return make_source(wanted)->open(0, 0).message; };
+  const std::string mute = opened(settings);
+  EXPECT_EQ(mute,
+            "serial:" + cable.device + ": the device does not answer $START; switch it on, or correct baud and parity");
+  SourceSettings other = settings;
+  other.line.device = "/dev/nonexistent";
+  EXPECT_NE(opened(other).find("serial:/dev/nonexistent: there is no such port"), std::string::npos);
+  other.line.device = "/tmp";
+  EXPECT_NE(opened(other).find("this is no serial port"), std::string::npos) << opened(other);
+  other = settings;
+  other.line.baud = 12345;
+  EXPECT_NE(opened(other).find("12345 baud is no standard rate"), std::string::npos);
+  const auto first = make_source(settings);
+  ASSERT_EQ(open_answered(*first, cable), "");
+  EXPECT_NE(opened(settings).find("the port is busy: another program uses it"), std::string::npos);
+}
+
+TEST(DroSource, NumbersItsPoints) {
+  Cable cable;
+  SourceSettings settings;
+  settings.kind = SourceKind::dro;
+  settings.line.device = cable.device;
+  settings.dro.reconnect_first = milliseconds(10);
+  const auto source = make_source(settings);
+  ASSERT_EQ(source->open(5, 0).message, "");
+  cable.write("0.5 Z 1\r\nX 1 Y 2 Z 3\r\n# note\r\nX 1 Y 2 Z 4\n\r");
+  EXPECT_EQ(collect(*source, 2), (Sequences{6, 7}));
+  EXPECT_EQ(source->status().damaged, 1U);
+  EXPECT_EQ(source->status().losses, 0U) << "the first line may have been cut when the port was opened";
+  cable.write("X 1 Y ? Z 4\nX 1 Y 2 Z 5\n" + std::string(400, 'X') + "\n");
+  EXPECT_EQ(collect(*source, 1), (Sequences{8}));
+  const std::uint64_t losses = source->status().losses;
+  EXPECT_GT(losses, 0U);
+  EXPECT_NE(source->status().last_fault.find("probe the point again"), std::string::npos);
+  cable.pull();
+  static_cast<void>(collect(*source, 1, milliseconds(50)));
+  EXPECT_EQ(source->status().losses, losses + 1);
+  EXPECT_NE(source->status().last_loss.find("while the port is down"), std::string::npos) << source->status().last_loss;
+  EXPECT_EQ(source->status().link, LinkState::lost);
+  cable.plug_in();
+  static_cast<void>(collect(*source, 1, milliseconds(200)));
+  EXPECT_EQ(source->status().link, LinkState::up);
+  cable.write("X 1 Y 2 Z 6\n");
+  EXPECT_EQ(collect(*source, 1), (Sequences{9}));
+}
+
+TEST(ReplaySource, DeliversTheFileAndFinishes) {
+  SourceSettings settings;
+  settings.kind = SourceKind::replay;
+  settings.replay.file = BLADEFIT_TEST_DATA "/dtmb4119/subsets/050.csv";
+  const auto source = make_source(settings);
+  ASSERT_EQ(source->open(0, 0).message, "");
+  const std::uint32_t run = source->status().run_id;
+  EXPECT_NE(run, 0U);
+  EXPECT_EQ(collect(*source, 50).back(), 50U);
+  EXPECT_TRUE(source->status().finished);
+  ASSERT_EQ(source->open(48, 0).message, "");
+  EXPECT_EQ(collect(*source, 2), (Sequences{49, 50}));
+  EXPECT_EQ(source->status().run_id, run);
+  EXPECT_NE(source->open(51, 0).message.find("has 50 points, but the session already holds 51"), std::string::npos);
+  settings.replay.file = "/nonexistent.csv";
+  EXPECT_NE(make_source(settings)->open(0, 0).message.find("/nonexistent.csv: No such file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bladefit

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "drivers/make_source.hpp"
+#include "drivers/source/back_off.hpp"
+#include "drivers/source_uri.hpp"
+
+namespace bladefit {
+namespace {
+
+struct GoodUri {
+  const char* uri;
+  SourceKind kind;
+  const char* name;
+};
+
+class GoodUris : public testing::TestWithParam<GoodUri> {};
+
+TEST_P(GoodUris, AreUnderstoodAndNamed) {
+  SourceSettings settings;
+  ASSERT_EQ(apply_source_uri(GetParam().uri, settings), "");
+  EXPECT_EQ(settings.kind, GetParam().kind);
+  EXPECT_EQ(source_name(settings), GetParam().name);
+  EXPECT_NE(make_source(settings), nullptr);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, GoodUris,
+    testing::Values(GoodUri{"modbus-tcp://localhost:1502", SourceKind::modbus_tcp, "modbus-tcp://localhost:1502"},
+                    GoodUri{"modbus-tcp://[::1]:502", SourceKind::modbus_tcp, "modbus-tcp://[::1]:502"},
+                    GoodUri{"modbus-rtu:/dev/ttyUSB0", SourceKind::modbus_rtu, "modbus-rtu:/dev/ttyUSB0"},
+                    GoodUri{"serial:/dev/serial/by-id/a:b", SourceKind::serial, "serial:/dev/serial/by-id/a:b"},
+                    GoodUri{"replay:points.csv", SourceKind::replay, "replay:points.csv"}));
+
+struct BadUri {
+  const char* uri;
+  const char* error;
+};
+
+class BadUris : public testing::TestWithParam<BadUri> {};
+
+TEST_P(BadUris, NameThePartAndTheMend) {
+  SourceSettings settings;
+  const std::string error = apply_source_uri(GetParam().uri, settings);
+  EXPECT_NE(error.find(GetParam().error), std::string::npos) << error;
+  EXPECT_NE(error.find(GetParam().uri), std::string::npos) << error;
+  EXPECT_EQ(settings.kind, SourceKind::none);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadUris,
+    testing::Values(BadUri{"", "unknown transport"}, BadUri{"modbus", "unknown transport"},
+                    BadUri{"ftp://a:1", "unknown transport"}, BadUri{"modbus-tcp:localhost:1502", "'//' is missing"},
+                    BadUri{"modbus-tcp://localhost", "port is missing"},
+                    BadUri{"modbus-tcp://[::1]", "port is missing"}, BadUri{"modbus-tcp://localhost:0", "1..65535"},
+                    BadUri{"modbus-tcp://localhost:70000", "1..65535"},
+                    BadUri{"modbus-tcp://localhost:15x", "1..65535"}, BadUri{"modbus-tcp://:1502", "host is missing"},
+                    BadUri{"modbus-tcp://::1:1502", "brackets"}, BadUri{"modbus-tcp://a/b:1502", "no host has"},
+                    BadUri{"modbus-rtu:", "device is missing"}, BadUri{"serial:", "device is missing"},
+                    BadUri{"replay:", "file is missing"}));
+
+TEST(SourceUri, KeepsTheFormatAndMapOfADeviceFile) {
+  SourceSettings settings;
+  settings.kind = SourceKind::dro;
+  ASSERT_EQ(apply_source_uri("serial:/dev/ttyS1", settings), "");
+  EXPECT_EQ(settings.kind, SourceKind::dro);
+  EXPECT_EQ(settings.line.device, "/dev/ttyS1");
+  settings.kind = SourceKind::modbus_rtu;
+  settings.modbus.unit = 7;
+  ASSERT_EQ(apply_source_uri("modbus-tcp://a:1", settings), "");
+  EXPECT_EQ(settings.kind, SourceKind::modbus_tcp);
+  EXPECT_EQ(settings.modbus.unit, 7);
+  EXPECT_NE(apply_source_uri("serial:/dev/ttyS1", settings).find("another transport"), std::string::npos);
+}
+
+TEST(MakeSource, MakesNothingOfNoKind) { EXPECT_EQ(make_source(SourceSettings{}), nullptr); }
+
+TEST(BackOff, DoublesUpToTheLongestPause) {
+  using std::chrono::milliseconds;
+  BackOff back_off(milliseconds(50), milliseconds(300));
+  const BackOff::Clock::time_point now{};
+  for (const int pause : {50, 100, 200, 300, 300}) {
+    back_off.failed(now);
+    EXPECT_EQ(back_off.retry_at() - now, milliseconds(pause));
+  }
+  back_off.succeeded();
+  back_off.failed(now);
+  EXPECT_EQ(back_off.retry_at() - now, milliseconds(50));
+}
+
+}  // namespace
+}  // namespace bladefit

@@ -1,0 +1,75 @@
+// Verdicts in, counts out: against counting everything anew.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "firmware_bridge/host/panel/tally.hpp"
+
+namespace bladefit {
+namespace {
+
+Verdict verdict(std::uint32_t sequence, PointState state, Region region = Region::leading_edge) {
+  Verdict made;
+  made.sequence = sequence;
+  made.state = state;
+  made.region = region;
+  return made;
+}
+
+TallyCounts counted_anew(const Tally& tally) {
+  TallyCounts counts;
+  for (const Verdict& verdict : tally.verdicts()) {
+    ++counts.points;
+    if (verdict.state == PointState::rejected) {
+      ++counts.rejected;
+      continue;
+    }
+    const bool out = verdict.state == PointState::out;
+    if (verdict.region == Region::leading_edge) {
+      ++counts.leading_edge;
+      if (out) ++counts.leading_edge_out;
+    } else if (out) {
+      ++counts.rest_out;
+    }
+  }
+  return counts;
+}
+
+TEST(BridgeTally, CountsAgreeWithCountingAnewForAnyRevisions) {
+  std::mt19937 random(20240511);
+  Tally tally;
+  for (int step = 0; step < 3000; ++step) {
+    tally.accept(verdict(1 + static_cast<std::uint32_t>(random() % 200), static_cast<PointState>(random() % 4),
+                         static_cast<Region>(random() % 2)));
+    const TallyCounts expected = counted_anew(tally);
+    const TallyCounts& counts = tally.counts();
+    ASSERT_EQ(counts.points, expected.points);
+    ASSERT_EQ(counts.leading_edge, expected.leading_edge);
+    ASSERT_EQ(counts.leading_edge_out, expected.leading_edge_out);
+    ASSERT_EQ(counts.rest_out, expected.rest_out);
+    ASSERT_EQ(counts.rejected, expected.rejected);
+    ASSERT_EQ(tally.leading_edge_out().size(), expected.leading_edge_out);
+    ASSERT_TRUE(std::ranges::is_sorted(tally.verdicts(), {}, &Verdict::sequence));
+  }
+}
+
+TEST(BridgeTally, ListsLeadingEdgePointsInTheOrderInWhichTheyBecameOut) {
+  Tally tally;
+  for (const std::uint32_t sequence : {1U, 2U, 3U, 4U}) tally.accept(verdict(sequence, PointState::in));
+  tally.accept(verdict(4, PointState::out));
+  tally.accept(verdict(2, PointState::out));
+  tally.accept(verdict(3, PointState::out, Region::rest));
+  tally.accept(verdict(4, PointState::out));  // told again: keeps its place
+  EXPECT_EQ(std::vector<std::uint32_t>(tally.leading_edge_out().begin(), tally.leading_edge_out().end()),
+            (std::vector<std::uint32_t>{4, 2}));
+  EXPECT_EQ(tally.times_out(), 3U);
+  tally.accept(verdict(4, PointState::in));
+  EXPECT_EQ(tally.leading_edge_out().size(), 1U);
+  tally.clear();
+  EXPECT_EQ(tally.counts().points, 0U);
+  EXPECT_EQ(tally.find(2), nullptr);
+}
+
+}  // namespace
+}  // namespace bladefit

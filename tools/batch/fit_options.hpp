@@ -1,0 +1,41 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "config/fit_settings.hpp"
+#include "core/localizer.hpp"
+#include "tools/batch/first_feet.hpp"
+#include "tools/design/design_file.hpp"
+
+namespace bladefit {
+
+inline constexpr double kMmPerInch = 25.4;
+
+/// Adds the fit options that `localize` and `run` share; what is given on the command line goes to `flags`.
+void add_fit_options(CLI::App& command, FitSettings& flags);
+
+/// `flags` where they are set, `file` elsewhere.
+[[nodiscard]] FitSettings merged(const FitSettings& flags, const FitSettings& file);
+
+/// A fit ready to run.
+struct FitPlan {
+  std::string mode = "least_squares";  ///< name of localizer.mode
+  std::string units = "mm";            ///< of lengths on the command line and in results
+  double mm_per_unit = 1.0;
+  LocalizerConfig localizer;
+  FootStarts starts = FootStarts::searched;  ///< of a batch fit
+  std::string note;                          ///< lines the user should read; empty = none
+};
+
+/// Names of the degrees of freedom in a set of bits of motion_lock.hpp: tx, ry ...
+[[nodiscard]] std::vector<std::string> names_of_locked(std::uint8_t locked);
+
+/// Where the design's outward side comes from. Throws DesignError for a text that is not +, - or auto.
+[[nodiscard]] OutwardOption outward_of(const FitSettings& settings);
+
+/// Checks the settings against the design and turns lengths to mm. Throws DesignError (bad_input) that names the option
+/// and the mend.
+[[nodiscard]] FitPlan plan_fit(const FitSettings& settings, const DesignImage& design);
+
+}  // namespace bladefit

@@ -1,0 +1,134 @@
+#include "tools/commands/compile_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tools/commands/design_notes.hpp"
+#include "tools/design/design_file.hpp"
+#include "tools/design/image/c_array.hpp"
+#include "tools/design/nurbs/length_unit.hpp"
+#include "tools/files/output_file.hpp"
+
+namespace bladefit {
+namespace {
+
+struct CompileOptions {
+  std::string design, output, c_array;
+  std::string outward = "auto";
+};
+
+constexpr const char* kCompileDescription = "Compile the B-spline surfaces of an IGES or STEP file into a design image";
+
+constexpr const char* kCompileHelp = R"(
+The image (.bfd) is what the localizer works on: Bezier spans, bounding tree, checksum. It is read
+without parsing, from a file or from flash, and takes the place of the IGES or STEP file everywhere.
+All its lengths are mm; the unit of the design file (mm or inch) is kept for display.
+
+Outward side: which side of the surface is away from the material decides between cut and weld.
+  auto  found from the shape where sections close around the material; else you are asked
+  +     the side to which Su x Sv points
+  -     the other side
+
+Examples:
+  bladefit compile fan.igs -o fan.bfd
+  bladefit compile sheet.stp -o sheet.bfd --outward -
+  bladefit compile fan.igs -o fan.bfd --c-array fan.c     (defines fan_design and fan_design_size)
+
+Exit codes: 0 done, 2 wrong use or bad design, 3 a file cannot be read or written.)";
+
+std::string_view as_text(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// An output must overwrite neither the design nor another output.
+void check_outputs(const CompileOptions& options) {
+  refuse_overwriting(options.output, "design", options.design);
+  refuse_overwriting(options.c_array, "design", options.design);
+  if (same_file(options.output, options.c_array)) {
+    throw DesignError(fmt::format("{}: is both -o and --c-array; give two names", options.output));
+  }
+}
+
+void write_outputs(const CompileOptions& options, const std::vector<std::byte>& image) {
+  OutputFile output(options.output, as_text(image));
+  if (options.c_array.empty()) return output.commit();
+  const std::string origin = std::filesystem::path(options.design).filename().string();
+  OutputFile array(options.c_array, c_array_source(image, c_array_name(options.c_array), origin));
+  array.commit();
+  output.commit();
+}
+
+void print_patches(const DesignImage& image) {
+  const auto patches = image.patches();
+  fmt::print("  {} patch{}, {} Bezier spans\n", patches.size(), patches.size() == 1 ? "" : "es", image.spans().size());
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const ImagePatch& patch = patches[k];
+    fmt::print("  patch {}: degree {} x {}, {} x {} spans, {}\n", k, patch.degree_u, patch.degree_v, patch.spans_u,
+               patch.spans_v, patch.rational != 0 ? "rational" : "polynomial");
+  }
+}
+
+void print_box(const ImageHeader& header) {
+  const auto shown = static_cast<DesignUnit>(header.design_unit);
+  const double unit = mm_per_unit(shown);
+  fmt::print("  unit of the design: {}\n", shown == DesignUnit::inch ? "inch" : "mm");
+  for (int axis = 0; axis < 3; ++axis) {
+    fmt::print("  {} {} {:.4f} to {:.4f} {}\n", axis == 0 ? "box:" : "    ", "xyz"[axis], header.box_min[axis] / unit,
+               header.box_max[axis] / unit, unit_name(shown));
+  }
+}
+
+DesignImage open_compiled(const CompileOptions& options, const LoadedDesign& design) {
+  DesignImage image;
+  if (const Status status = DesignImage::open(design.image, image); status != Status::ok) {
+    throw DesignError(fmt::format("{}: the compiled image is not valid ({}); please report this design", options.design,
+                                  status_text(status)));
+  }
+  return image;
+}
+
+void print_summary(const CompileOptions& options, const LoadedDesign& design, const DesignImage& image) {
+  fmt::print("{} -> {} ({} bytes)\n", options.design, options.output, design.image.size());
+  if (!options.c_array.empty()) {
+    fmt::print("  C array {} in {}\n", c_array_name(options.c_array), options.c_array);
+  }
+  print_patches(image);
+  print_box(image.header());
+  tell_notes(design, stdout, "  ");
+}
+
+void compile(const CompileOptions& options) {
+  const OutwardOption outward = parse_outward(options.outward);
+  check_outputs(options);
+  const LoadedDesign design = load_design(options.design, outward);
+  const DesignImage image = open_compiled(options, design);
+  write_outputs(options, design.image);
+  print_summary(options, design, image);
+}
+
+}  // namespace
+
+void add_compile_command(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<CompileOptions>();
+  CLI::App* command = app.add_subcommand("compile", kCompileDescription);
+  command->footer(kCompileHelp);
+  command->add_option("design", options->design, "IGES or STEP file (.igs .iges .stp .step), or an image (.bfd)")
+      ->required()
+      ->type_name("DESIGN");
+  command->add_option("-o,--output", options->output, "Design image to write")->required()->type_name("OUT.bfd");
+  command->add_option("--c-array", options->c_array, "Also write the image as a C99 array, for flash")
+      ->type_name("OUT.c");
+  command->add_option("--outward", options->outward, "Side away from the material (default auto)")
+      ->type_name("+|-|auto");
+  command->callback([options, &exit_code] {
+    compile(*options);
+    exit_code = 0;
+  });
+}
+
+}  // namespace bladefit

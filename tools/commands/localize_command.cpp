@@ -1,0 +1,144 @@
+#include "tools/commands/localize_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "drivers/replay/points_csv.hpp"
+#include "tools/batch/batch_fit.hpp"
+#include "tools/batch/fit_options.hpp"
+#include "tools/commands/design_notes.hpp"
+#include "tools/files/output_file.hpp"
+
+namespace bladefit {
+namespace {
+
+struct LocalizeFlags {
+  std::string design, points, subset, json, config, starts;
+  FitSettings fit;
+};
+
+/// Row numbers, counted from 0, one a line; every one below `rows`, none twice. Returned sorted.
+std::vector<std::size_t> read_subset(const std::string& path, std::size_t rows) {
+  const std::string text = read_text(path, "subset");
+  std::vector<std::size_t> indices;
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = std::min(text.find('\n', begin), text.size());
+    ++line;
+    std::size_t last = end;
+    if (last > begin && text[last - 1] == '\r') --last;
+    if (last > begin) {
+      std::size_t value = 0;
+      const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + last, value);
+      if (error != std::errc() || stop != text.data() + last) {
+        throw DesignError(fmt::format("{}:{}: '{}' is not a row number; write one number, counted from 0, a line", path,
+                                      line, text.substr(begin, last - begin)));
+      }
+      if (value >= rows) {
+        throw DesignError(fmt::format("{}:{}: row {} is not in the points file, which has rows 0 to {}", path, line,
+                                      value, rows - 1));
+      }
+      indices.push_back(value);
+    }
+    begin = end + 1;
+  }
+  std::sort(indices.begin(), indices.end());
+  if (const auto twice = std::adjacent_find(indices.begin(), indices.end()); twice != indices.end())
+    throw DesignError(fmt::format("{}: row {} is named twice; name each row once", path, *twice));
+  return indices;
+}
+
+std::vector<ProbePoint> read_points(const LocalizeFlags& flags, double mm_per_unit) {
+  PointsFile file = read_points_csv(flags.points, mm_per_unit);
+  if (!file.error.empty()) throw DesignError(file.error);
+  if (!flags.subset.empty()) {
+    std::vector<ProbePoint> chosen;
+    for (const std::size_t index : read_subset(flags.subset, file.points.size())) chosen.push_back(file.points[index]);
+    file.points = std::move(chosen);
+  }
+  if (file.points.size() < 6) {
+    throw DesignError(
+        fmt::format("{}: {} points, at least 6 are needed for the six degrees of freedom; probe more points",
+                    flags.subset.empty() ? flags.points : flags.subset, file.points.size()));
+  }
+  return file.points;
+}
+
+/// The result must not take the place of anything it is made from.
+void check_result_file(const LocalizeFlags& flags, const FitSettings& settings) {
+  if (flags.json == "-") return;
+  refuse_overwriting(flags.json, "design", flags.design);
+  refuse_overwriting(flags.json, "points", flags.points);
+  refuse_overwriting(flags.json, "subset", flags.subset);
+  refuse_overwriting(flags.json, "settings", flags.config);
+  refuse_overwriting(flags.json, "start pairs", settings.start.value_or(""));
+}
+
+int localize(const LocalizeFlags& flags) {
+  FitSettings from_file;
+  if (!flags.config.empty()) {
+    if (const ConfigError error = load_fit(flags.config, from_file)) throw DesignError(error.message);
+  }
+  const FitSettings settings = merged(flags.fit, from_file);
+  check_result_file(flags, settings);
+  const LoadedDesign loaded = load_design(flags.design, outward_of(settings));
+  DesignImage design;
+  if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
+    throw DesignError(fmt::format("{}: {}", flags.design, status_text(status)));
+  FitPlan plan = plan_fit(settings, design);
+  if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
+  const std::vector<ProbePoint> points = read_points(flags, plan.mm_per_unit);
+
+  const bool json_on_stdout = flags.json == "-";
+  std::FILE* words = json_on_stdout ? stderr : stdout;
+  tell_notes(loaded, words);
+  if (!plan.note.empty()) fmt::print(words, "{}", plan.note);
+  const FitResult result = fit_points(design, plan, points, flags.points);
+  if (!flags.starts.empty()) {
+    fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", result.wrong_starts, points.size(),
+               result.wrong_starts > 0 ? "; fitted anew from searched ones" : "");
+  }
+  const std::string json = result_json(result, plan);
+  if (json_on_stdout) {
+    std::fwrite(json.data(), 1, json.size(), stdout);
+    if (std::fflush(stdout) != 0)
+      throw DesignError("standard output: cannot write the result", DesignError::Kind::io_failure);
+  } else if (!flags.json.empty()) {
+    OutputFile(flags.json, json).commit();
+  }
+  fmt::print(words, "{}", operator_summary(result, plan, design));
+  if (!flags.json.empty() && !json_on_stdout) fmt::print(words, "Written: {}\n", flags.json);
+  return exit_code_of(result);
+}
+
+}  // namespace
+
+void add_localize_command(CLI::App& app, int& exit_code) {
+  auto flags = std::make_shared<LocalizeFlags>();
+  CLI::App* command = app.add_subcommand("localize", "fit measured points to a design and judge them");
+  command->add_option("--design", flags->design, "design: .igs .iges .stp .step, or .bfd from `bladefit compile`")
+      ->required();
+  command->add_option("--points", flags->points, "CSV with columns x,y,z and optionally i,j,k and path")->required();
+  command->add_option("--subset", flags->subset,
+                      "file of row numbers of the points to use, counted from 0, one a line");
+  command->add_option(
+      "--json", flags->json,
+      "write result.json here; - writes it to standard output; its indices count points from 0, the words from 1");
+  command->add_option("--config", flags->config,
+                      "TOML with a [fit] table (see config/fit.toml); options given here win over it");
+  command->add_option(
+      "--starts", flags->starts,
+      "how the first foot of each point is found; the answer is the same, since all feet are proven by searches at the "
+      "start and at the end. "
+      "curves: from the cubic through its path; neighbour: from the point before on its path; global: by a search. "
+      "Default: from the point before, then a search");
+  add_fit_options(*command, flags->fit);
+  command->callback([flags, &exit_code] { exit_code = localize(*flags); });
+}
+
+}  // namespace bladefit

@@ -1,0 +1,50 @@
+#include "tools/commands/panel_command.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "firmware_bridge/host/panel/panel_server.hpp"
+#include "tools/commands/run_stop_flag.hpp"
+#include "tools/files/exit_codes.hpp"
+#include "tools/panel/panel_display.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::chrono::milliseconds kPause{50};
+
+int show_panel(const std::string& address) {
+  std::string host;
+  std::uint16_t port = 0;
+  if (!parse_address(address, host, port)) {
+    fmt::print(stderr, "bladefit: --connect {}: is no address; use HOST:PORT, for example 127.0.0.1:1503\n", address);
+    return kBadInput;
+  }
+  const StopFlag stop;
+  PanelDisplay display(PanelClient(host, port));
+  // Later losses are mended by themselves: the host may be started again.
+  if (const std::string error = display.turn(); !error.empty()) {
+    fmt::print(stderr, "bladefit: {}\n", error);
+    return kDeviceFailure;
+  }
+  while (!stop.requested()) {
+    display.turn();
+    std::this_thread::sleep_for(kPause);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_panel_command(CLI::App& app, int& exit_code) {
+  const auto address = std::make_shared<std::string>("127.0.0.1:1503");
+  CLI::App* command = app.add_subcommand("panel", "show a running session live; Ctrl-C ends");
+  command->add_option("--connect", *address, "HOST:PORT of the session's panel")->capture_default_str();
+  command->callback([address, &exit_code] { exit_code = show_panel(*address); });
+}
+
+}  // namespace bladefit

@@ -1,0 +1,130 @@
+#include "tools/commands/run_plan.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+#include "config/device_settings.hpp"
+#include "drivers/source_uri.hpp"
+#include "tools/files/output_file.hpp"
+#include "tools/results/session_report.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr double kMillisecondsPerSecond = 1000;
+constexpr double kLongestIdle_s = 1e6;
+
+template <typename Value>
+void over(std::optional<Value>& target, const std::optional<Value>& flag) {
+  if (flag) target = flag;
+}
+
+SessionSettings merged_session(const RunFlags& flags) {
+  SessionSettings session;
+  if (!flags.config.empty()) {
+    if (const ConfigError error = load_session(flags.config, session)) throw DesignError(error.message);
+  }
+  over(session.design, flags.session.design);
+  over(session.source, flags.session.source);
+  over(session.session, flags.session.session);
+  over(session.until_idle, flags.session.until_idle);
+  over(session.headless, flags.session.headless);
+  session.fit = merged(flags.session.fit, session.fit);
+  return session;
+}
+
+/// `flag` is that of --units, which wins over the units that a device file gives for its recording.
+SourceSettings plan_source(const SessionSettings& session, const std::optional<std::string>& flag, double mm_per_unit) {
+  SourceSettings source;
+  source.replay.mm_per_unit = mm_per_unit;
+  if (session.device) {
+    if (const ConfigError error = load_device(*session.device, source)) throw DesignError(error.message);
+  }
+  if (session.source) {
+    if (const std::string error = apply_source_uri(*session.source, source); !error.empty()) throw DesignError(error);
+  }
+  if (source.kind == SourceKind::none) {
+    throw DesignError(
+        "no source is given; name one with --source, for example modbus-tcp://192.168.0.10:502, or in the "
+        "session file");
+  }
+  if (flag) source.replay.mm_per_unit = mm_per_unit;
+  return source;
+}
+
+PanelServerSettings plan_panel(const PanelSettings& file, const std::string& flag) {
+  PanelServerSettings panel;
+  if (file.address) panel.host = *file.address;
+  if (file.port) panel.port = *file.port;
+  if (file.commands) panel.commands = *file.commands;
+  if (file.allow) panel.allow = *file.allow;
+  if (!flag.empty() && !parse_address(flag, panel.host, panel.port)) {
+    throw DesignError(fmt::format("--panel {}: is no address; use HOST:PORT, for example 127.0.0.1:1503", flag));
+  }
+  return panel;
+}
+
+/// A folder of its own for every session that has no name, so that none is resumed by accident.
+std::string fresh_session_name() { return fmt::format("session-{:%Y%m%d-%H%M%S}", fmt::localtime(std::time(nullptr))); }
+
+std::chrono::milliseconds idle_of(const SessionSettings& session) {
+  const double seconds = session.until_idle.value_or(0);
+  if (session.until_idle && (!(seconds > 0) || seconds > kLongestIdle_s)) {
+    throw DesignError(fmt::format("--until-idle {}: give seconds above 0", seconds));
+  }
+  return std::chrono::milliseconds(std::llround(seconds * kMillisecondsPerSecond));
+}
+
+/// Nothing that is written may take the place of what is read, nor the copy of the result that of a file of the
+/// session. In the place of the session's own result.json it does no harm.
+void check_outputs(const RunFlags& flags, const SessionSettings& session, const RunPlan& plan) {
+  const std::filesystem::path folder(plan.host.session_directory);
+  const std::filesystem::path copy(flags.json == "-" ? "" : flags.json);
+  refuse_overwriting(copy, "journal of the session", folder / kJournalFile);
+  refuse_overwriting(copy, "verdicts of the session", folder / kVerdictsFile);
+  const std::array<std::pair<const char*, std::string>, 5> inputs{{{"design", session.design.value_or("")},
+                                                                   {"session file", flags.config},
+                                                                   {"device file", session.device.value_or("")},
+                                                                   {"start pairs", session.fit.start.value_or("")},
+                                                                   {"recording", plan.source.replay.file}}};
+  for (const auto& [what, input] : inputs) {
+    refuse_overwriting(copy, what, input);
+    for (const char* name : {kJournalFile, kVerdictsFile, kResultFile}) refuse_overwriting(folder / name, what, input);
+  }
+}
+
+}  // namespace
+
+RunPlan plan_run(const RunFlags& flags) {
+  const SessionSettings session = merged_session(flags);
+  if (!session.design) {
+    throw DesignError("no design is given; name it with --design, or in the session file with --config");
+  }
+  RunPlan plan;
+  plan.design = load_design(*session.design, outward_of(session.fit));
+  if (const Status status = DesignImage::open(plan.design.image, plan.image); status != Status::ok) {
+    throw DesignError(fmt::format("{}: {}", *session.design, status_text(status)));
+  }
+  plan.fit = plan_fit(session.fit, plan.image);
+  if (session.capacity) plan.fit.localizer.capacity = *session.capacity;
+  plan.source = plan_source(session, flags.session.fit.units, plan.fit.mm_per_unit);
+  plan.json = flags.json;
+  // The screen would mix with the result.
+  plan.headless = session.headless.value_or(false) || plan.json == "-";
+  plan.host.localizer = plan.fit.localizer;
+  plan.host.session_directory = session.session.value_or(fresh_session_name());
+  plan.host.panel = plan_panel(session.panel, flags.panel);
+  plan.host.idle = idle_of(session);
+  const bool recording = plan.source.kind == SourceKind::replay;
+  plan.host.end_when_finished = recording || plan.headless || session.until_idle.has_value();
+  check_outputs(flags, session, plan);
+  return plan;
+}
+
+}  // namespace bladefit

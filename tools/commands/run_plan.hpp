@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "config/session_settings.hpp"
+#include "drivers/source_settings.hpp"
+#include "firmware_bridge/host/host.hpp"
+#include "tools/batch/fit_options.hpp"
+
+namespace bladefit {
+
+/// What the command line of `run` says; an empty text or a missing value says nothing.
+struct RunFlags {
+  std::string config;  ///< session TOML
+  std::string json;    ///< where to write a copy of result.json; - = standard output
+  std::string panel;   ///< HOST:PORT
+  SessionSettings session;
+};
+
+/// A session ready to start.
+struct RunPlan {
+  LoadedDesign design;  ///< holds the memory of `image`
+  DesignImage image;
+  FitPlan fit;
+  SourceSettings source;
+  HostSettings host;
+  bool headless = false;
+  std::string json;
+};
+
+/// Reads the session file, lets the flags win, loads the design and checks everything that can be checked before the
+/// device is touched. Throws DesignError that names the option or file and the mend.
+[[nodiscard]] RunPlan plan_run(const RunFlags& flags);
+
+}  // namespace bladefit

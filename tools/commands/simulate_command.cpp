@@ -1,0 +1,108 @@
+#include "tools/commands/simulate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "core/geometry/surface/design_image.hpp"
+#include "tools/design/design_file.hpp"
+#include "tools/files/output_file.hpp"
+#include "tools/simulate/simulator.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr double kMmPerInch = 25.4;
+
+/// The flags as they are given, before the units are known.
+struct SimulateFlags {
+  SimulatorSettings settings;
+  std::string design;
+  std::string units;
+  std::string transport;
+};
+
+void add_source_flags(CLI::App& command, SimulateFlags& flags) {
+  SimulatorSettings& settings = flags.settings;
+  command.add_option("--points", settings.points, "CSV of the points that the machine touches: x,y,z[,i,j,k][,path]")
+      ->required();
+  command.add_option("--design", flags.design, "design file; read for the units of the points only");
+  command.add_option("--units", flags.units, "units of the points: mm or in (default: those of the design, else mm)")
+      ->check(CLI::IsMember({"mm", "in"}));
+  command.add_option("--rate", settings.rate, "points a second; 0 = as fast as they are acknowledged")
+      ->capture_default_str();
+  command.add_option("--capacity", settings.capacity, "records that the machine's ring holds")->capture_default_str();
+  command.add_option("--run-id", settings.run_id, "number of the run that the machine tells")->capture_default_str();
+}
+
+void add_transport_flags(CLI::App& command, SimulateFlags& flags) {
+  SimulatorSettings& settings = flags.settings;
+  command.add_option("--transport", flags.transport, "how readers reach the machine")
+      ->required()
+      ->check(CLI::IsMember({"modbus-tcp", "modbus-rtu", "serial"}));
+  command.add_option("--port", settings.port, "Modbus TCP port on 127.0.0.1; 0 = any free one, which is printed")
+      ->capture_default_str();
+  command.add_option("--device", settings.device,
+                     "Modbus RTU and serial: make this a link to the pseudo terminal (default: print its own name)");
+  command.add_option("--unit", settings.unit, "Modbus RTU: address of the machine on the line")->capture_default_str();
+  command.add_option("--map-version", settings.map_version, "map version that the machine claims, to test readers")
+      ->capture_default_str();
+}
+
+void add_test_flags(CLI::App& command, SimulatorSettings& settings) {
+  command.add_option(
+      "--faults", settings.faults,
+      "faults as NAME=PROBABILITY per record (serial) or per reply (Modbus), for example "
+      "drop=0.01,duplicate=0.02,corrupt=0.01,delay=0.05:200ms,disconnect=0.001,seed=7; the word overflow "
+      "lets the machine lose its oldest records instead of waiting for the reader");
+  command.add_option("--seed", settings.seed, "seed of the faults (default 1)");
+  command.add_option("--stamp", settings.stamps,
+                     "write sequence,nanoseconds (CLOCK_MONOTONIC) of the moment each record became readable");
+  command.add_flag("--exit-when-done", settings.exit_when_done, "end when the last record was acknowledged");
+  command.add_flag("--verbose", settings.verbose, "tell commands and faults on standard error");
+}
+
+SimulatorTransport transport_of(const std::string& name) {
+  if (name == "modbus-rtu") return SimulatorTransport::modbus_rtu;
+  if (name == "serial") return SimulatorTransport::serial;
+  return SimulatorTransport::modbus_tcp;
+}
+
+/// The unit of a design. A CAD file is read for it, but not compiled.
+DesignUnit design_unit(const std::string& path) {
+  if (lower_extension(path) != ".bfd") return read_design(path).unit;
+  const LoadedDesign design = load_design(path, OutwardOption::automatic);
+  DesignImage image;
+  const Status status = DesignImage::open(design.image, image);
+  if (!succeeded(status)) throw DesignError(fmt::format("{}: {}", path, status_text(status)));
+  return static_cast<DesignUnit>(image.header().design_unit);
+}
+
+/// Millimetres in a unit of the points file. Throws DesignError for a design that cannot be read.
+double mm_per_unit_of(const SimulateFlags& flags) {
+  if (flags.units == "in") return kMmPerInch;
+  if (flags.units == "mm" || flags.design.empty()) return 1;
+  return design_unit(flags.design) == DesignUnit::inch ? kMmPerInch : 1;
+}
+
+int serve_points(SimulateFlags& flags) {
+  refuse_overwriting(flags.settings.stamps, "points", flags.settings.points);
+  refuse_overwriting(flags.settings.stamps, "design", flags.design);
+  flags.settings.mm_per_unit = mm_per_unit_of(flags);
+  flags.settings.transport = transport_of(flags.transport);
+  return run_simulator(flags.settings);
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("simulate", "a simulated CMM that serves the points of a file");
+  const auto flags = std::make_shared<SimulateFlags>();
+  add_source_flags(*command, *flags);
+  add_transport_flags(*command, *flags);
+  add_test_flags(*command, flags->settings);
+  command->callback([flags, &exit_code] { exit_code = serve_points(*flags); });
+}
+
+}  // namespace bladefit

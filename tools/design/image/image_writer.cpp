@@ -1,0 +1,174 @@
+#include "tools/design/image/image_writer.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "tools/design/image/creases.hpp"
+#include "tools/design/image/seams.hpp"
+#include "tools/design/image/span_bounding.hpp"
+#include "tools/design/image/tree_builder.hpp"
+#include "tools/design/nurbs/bezier_extraction.hpp"
+#include "tools/files/tool_error.hpp"
+
+namespace bladefit {
+namespace {
+
+/// The arrays of an image while it is being put together.
+struct ImageParts {
+  std::vector<ImagePatch> patches;
+  std::vector<ImageSpan> spans;
+  std::vector<ImageNode> nodes;
+  std::vector<double> breaks;
+  std::vector<double> coefficients, taylor;
+  std::vector<ImageLeaf> leaves;
+  std::vector<Box> boxes;  ///< one a leaf
+};
+
+/// A leaf is to tell of points this near to the surface [half diagonals of the control points' box].
+constexpr double kNear = 5e-3;
+
+/// Half the diagonal of the box of all control points [mm].
+double half_diagonal(const std::vector<NurbsSurface>& surfaces) {
+  Eigen::AlignedBox3d box;
+  for (const NurbsSurface& surface : surfaces) {
+    for (const Eigen::Vector3d& point : surface.control_points) box.extend(point);
+  }
+  return 0.5 * box.diagonal().norm();
+}
+
+std::uint32_t append_breaks(const std::vector<double>& breaks, ImageParts& parts) {
+  const auto first = static_cast<std::uint32_t>(parts.breaks.size());
+  parts.breaks.insert(parts.breaks.end(), breaks.begin(), breaks.end());
+  return first;
+}
+
+void append_leaves(const SpanBounding& bounding, ImageParts& parts) {
+  for (ImageLeaf leaf : bounding.leaves) {
+    leaf.span = static_cast<std::uint32_t>(parts.spans.size());
+    parts.leaves.push_back(leaf);
+  }
+  parts.boxes.insert(parts.boxes.end(), bounding.boxes.begin(), bounding.boxes.end());
+}
+
+void append_spans(const BezierPatch& bezier, int outward, double near, ImageParts& parts) {
+  const auto patch = static_cast<std::uint32_t>(parts.patches.size());
+  const std::size_t first = parts.coefficients.size();
+  std::size_t k = 0;
+  for (const SpanBounding& bounding : bound_spans(bezier, outward, near)) {
+    ImageSpan span{};
+    span.patch = patch;
+    span.iu = static_cast<std::uint32_t>(k / bezier.spans_v());
+    span.iv = static_cast<std::uint32_t>(k % bezier.spans_v());
+    span.first_coefficient = first + k * bezier.span_size();
+    std::copy(bounding.cone.axis.begin(), bounding.cone.axis.end(), span.cone_axis);
+    span.cone_cosine = bounding.cone.cosine;
+    span.ends = span_ends(bezier, span.iu, span.iv);
+    append_leaves(bounding, parts);
+    parts.spans.push_back(span);
+    ++k;
+  }
+  parts.coefficients.insert(parts.coefficients.end(), bezier.coefficients.begin(), bezier.coefficients.end());
+  parts.taylor.insert(parts.taylor.end(), bezier.taylor.begin(), bezier.taylor.end());
+}
+
+void append_patch(const BezierPatch& bezier, int outward, double near, ImageParts& parts) {
+  ImagePatch patch{};
+  patch.degree_u = static_cast<std::uint32_t>(bezier.degree_u);
+  patch.degree_v = static_cast<std::uint32_t>(bezier.degree_v);
+  patch.spans_u = static_cast<std::uint32_t>(bezier.spans_u());
+  patch.spans_v = static_cast<std::uint32_t>(bezier.spans_v());
+  patch.first_span = static_cast<std::uint32_t>(parts.spans.size());
+  patch.first_break_u = append_breaks(bezier.breaks_u, parts);
+  patch.first_break_v = append_breaks(bezier.breaks_v, parts);
+  patch.rational = bezier.rational ? 1 : 0;
+  append_spans(bezier, outward, near, parts);
+  parts.patches.push_back(patch);
+}
+
+ImageHeader make_header(const ImageParts& parts, DesignUnit unit, int outward) {
+  ImageHeader header{};
+  std::memcpy(header.magic, kImageMagic, sizeof kImageMagic);
+  header.version = kImageVersion;
+  header.design_unit = static_cast<std::uint32_t>(unit);
+  header.outward = outward;
+  header.patch_count = static_cast<std::uint32_t>(parts.patches.size());
+  header.span_count = static_cast<std::uint32_t>(parts.spans.size());
+  header.leaf_count = static_cast<std::uint32_t>(parts.leaves.size());
+  header.node_count = static_cast<std::uint32_t>(parts.nodes.size());
+  header.break_count = static_cast<std::uint32_t>(parts.breaks.size());
+  header.coefficient_count = parts.coefficients.size();
+  header.patches_offset = sizeof(ImageHeader);
+  header.spans_offset = header.patches_offset + parts.patches.size() * sizeof(ImagePatch);
+  header.leaves_offset = header.spans_offset + parts.spans.size() * sizeof(ImageSpan);
+  header.nodes_offset = header.leaves_offset + parts.leaves.size() * sizeof(ImageLeaf);
+  header.breaks_offset = header.nodes_offset + parts.nodes.size() * sizeof(ImageNode);
+  header.coefficients_offset = header.breaks_offset + parts.breaks.size() * sizeof(double);
+  header.taylor_offset = header.coefficients_offset + parts.coefficients.size() * sizeof(double);
+  header.total_size = header.taylor_offset + parts.taylor.size() * sizeof(double);
+  const Box whole = box_around(parts.boxes);
+  std::copy_n(whole.min, 3, header.box_min);
+  std::copy_n(whole.max, 3, header.box_max);
+  return header;
+}
+
+template <class Element>
+void copy_array(const std::vector<Element>& array, std::uint64_t offset, std::vector<std::byte>& image) {
+  std::memcpy(image.data() + offset, array.data(), array.size() * sizeof(Element));
+}
+
+void seal(std::vector<std::byte>& image) {
+  const std::uint32_t crc = image_crc(image);
+  std::memcpy(image.data() + offsetof(ImageHeader, crc32), &crc, sizeof crc);
+}
+
+}  // namespace
+
+std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward) {
+  ImageParts parts;
+  const double near = kNear * half_diagonal(surfaces);
+  for (const NurbsSurface& surface : surfaces) append_patch(extract_bezier(surface), outward, near, parts);
+  if (parts.leaves.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
+    throw DesignError("the design has too many knot spans; export the blade with fewer knots");
+  }
+  parts.nodes = build_bounding_tree(parts.boxes);
+  for (std::uint32_t k = 0; k < parts.nodes.size(); ++k) {
+    for (const std::uint32_t child : parts.nodes[k].child) {
+      if (child != kNoChild && (child & kLeafChild) != 0) parts.leaves[child & ~kLeafChild].node = k;
+    }
+  }
+  const ImageHeader header = make_header(parts, unit, outward);
+  std::vector<std::byte> image(header.total_size);
+  std::memcpy(image.data(), &header, sizeof header);
+  copy_array(parts.patches, header.patches_offset, image);
+  copy_array(parts.spans, header.spans_offset, image);
+  copy_array(parts.leaves, header.leaves_offset, image);
+  copy_array(parts.nodes, header.nodes_offset, image);
+  copy_array(parts.breaks, header.breaks_offset, image);
+  copy_array(parts.coefficients, header.coefficients_offset, image);
+  copy_array(parts.taylor, header.taylor_offset, image);
+  seal(image);
+  mark_seams(image);
+  seal(image);
+  return image;
+}
+
+void set_outward(std::vector<std::byte>& image, int outward) {
+  ImageHeader header;
+  std::memcpy(&header, image.data(), sizeof header);
+  if (header.outward == outward) return;
+  header.outward = outward;
+  std::memcpy(image.data(), &header, sizeof header);
+  for (std::uint64_t k = 0; k < header.span_count; ++k) {
+    std::byte* place = image.data() + header.spans_offset + k * sizeof(ImageSpan);
+    ImageSpan span;
+    std::memcpy(&span, place, sizeof span);
+    for (double& component : span.cone_axis) component = -component;
+    std::memcpy(place, &span, sizeof span);
+  }
+  seal(image);
+}
+
+}  // namespace bladefit

@@ -1,0 +1,278 @@
+#include "tools/design/image/leaf_bounding.hpp"
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "core/geometry/surface/surface.hpp"
+#include "tools/design/image/interval.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Pieces in each direction: the intervals' excess falls with their number.
+constexpr int kPieces = 2;
+/// Widening against rounding, of the size of what is bounded.
+constexpr double kWidening = 1e-12;
+
+/// Ranges of a homogeneous quantity over a piece.
+struct HomogeneousRange {
+  IntervalVector place;
+  Interval weight;
+};
+
+/// S - origin and its derivatives s, t, ss, st, tt over a piece.
+struct PieceRange {
+  IntervalVector place;
+  std::array<IntervalVector, 5> derivative;
+};
+
+/// Those of the bounds: s, t, aa, ab, bb, across s, across t.
+constexpr std::size_t kDerivatives = 7;
+template <class Value>
+using Derivatives = std::array<Value, kDerivatives>;
+
+constexpr Interval kNothing{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+/// A piece of a span: its net in the frame of the leaf, moved to an origin of its own.
+class Piece {
+ public:
+  Piece(const BezierSpan& span, const LocalRect& rect, const ImageBounds& leaf) {
+    restrict_net(span.net, span.degree_u, span.degree_v, rect, net_);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(&leaf.axis[0][0]);
+    const Homogeneous& corner = net_.at(net_.degree_u / 2, net_.degree_v / 2);
+    const Vec3 origin = corner.head<3>() / corner[3];
+    for (std::uint32_t k = 0; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k) {
+      const Vec3 arm = Vec3(net_.points[k].head<3>()) - net_.points[k][3] * origin;
+      net_.points[k].head<3>() = axes * arm;
+    }
+    origin_ = axes * (origin - Vec3(leaf.middle));
+  }
+
+  /// Control values of the derivative of order (along_u, along_v): differences, times the factor of the degrees.
+  [[nodiscard]] HomogeneousRange derivative(std::uint32_t along_u, std::uint32_t along_v) const {
+    if (along_u > net_.degree_u || along_v > net_.degree_v) return HomogeneousRange{};
+    BezierNet d = net_;
+    double factor = 1.0;
+    for (std::uint32_t k = 0; k < along_u; ++k) {
+      factor *= (net_.degree_u - k) * static_cast<double>(kPieces);
+      for (std::uint32_t i = 0; i < net_.degree_u - k; ++i) {
+        for (std::uint32_t j = 0; j <= net_.degree_v; ++j) d.at(i, j) = d.at(i + 1, j) - Homogeneous(d.at(i, j));
+      }
+    }
+    for (std::uint32_t k = 0; k < along_v; ++k) {
+      factor *= (net_.degree_v - k) * static_cast<double>(kPieces);
+      for (std::uint32_t i = 0; i <= net_.degree_u - along_u; ++i) {
+        for (std::uint32_t j = 0; j < net_.degree_v - k; ++j) d.at(i, j) = d.at(i, j + 1) - Homogeneous(d.at(i, j));
+      }
+    }
+    Homogeneous low = Homogeneous::Constant(kNothing.low), high = Homogeneous::Constant(kNothing.high);
+    for (std::uint32_t i = 0; i <= net_.degree_u - along_u; ++i) {
+      for (std::uint32_t j = 0; j <= net_.degree_v - along_v; ++j) {
+        low = low.min(d.at(i, j));
+        high = high.max(d.at(i, j));
+      }
+    }
+    low *= factor;
+    high *= factor;
+    return {{Interval{low[0], high[0]}, {low[1], high[1]}, {low[2], high[2]}}, {low[3], high[3]}};
+  }
+
+  /// (S - origin) . direction: between those of the control points.
+  [[nodiscard]] Interval extent(const Vec3& direction) const {
+    Interval range = kNothing;
+    for (std::uint32_t k = 0; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k) {
+      const double along = direction.dot(Vec3(net_.points[k].head<3>())) / net_.points[k][3];
+      range.include({along, along});
+    }
+    return range;
+  }
+
+  [[nodiscard]] const Vec3& origin() const { return origin_; }
+
+ private:
+  BezierNet net_;
+  Vec3 origin_;  ///< from the middle of the leaf
+};
+
+/// Quotient rule on A / w with intervals; small because A is taken about the piece's own origin.
+PieceRange range_of(const Piece& piece) {
+  const HomogeneousRange value = piece.derivative(0, 0), s = piece.derivative(1, 0), t = piece.derivative(0, 1),
+                         ss = piece.derivative(2, 0), st = piece.derivative(1, 1), tt = piece.derivative(0, 2);
+  const Interval over = inverse(value.weight);
+  PieceRange out;
+  out.place = {piece.extent(Vec3::UnitX()), piece.extent(Vec3::UnitY()), piece.extent(Vec3::UnitZ())};
+  if (value.weight.low == value.weight.high) {
+    out.derivative = {over * s.place, over * t.place, over * ss.place, over * st.place, over * tt.place};
+    return out;
+  }
+  out.derivative[0] = over * (s.place - s.weight * out.place);
+  out.derivative[1] = over * (t.place - t.weight * out.place);
+  const IntervalVector &d_s = out.derivative[0], &d_t = out.derivative[1];
+  out.derivative[2] = over * (ss.place - (2.0 * s.weight) * d_s - ss.weight * out.place);
+  out.derivative[3] = over * (st.place - s.weight * d_t - t.weight * d_s - st.weight * out.place);
+  out.derivative[4] = over * (tt.place - (2.0 * t.weight) * d_t - tt.weight * out.place);
+  return out;
+}
+
+/// The unit vector across the sides of constant s in the middle: along_s * Ss + along_t * St. That across those of
+/// constant t is Sb.
+struct AcrossS {
+  double along_s, along_t;
+  explicit AcrossS(const SurfacePoint& middle) {
+    const double square = middle.s_v.squaredNorm(), share = square > 0.0 ? middle.s_u.dot(middle.s_v) / square : 0.0;
+    const double length = (middle.s_u - share * middle.s_v).norm();
+    along_s = length > 0.0 ? 1.0 / length : 1.0;
+    along_t = -share * along_s;
+  }
+};
+
+/// The derivatives of the bounds from s, t, ss, st, tt. `Value`: an interval or a vector.
+template <class Value>
+Derivatives<Value> stretched(const double (&stretch)[3], const AcrossS& across, const std::array<Value, 5>& d) {
+  const double alpha = stretch[0], beta = stretch[1], gamma = stretch[2];
+  const auto& [s, t, ss, st, tt] = d;
+  return {s,
+          t,
+          (alpha * alpha) * ss,
+          (alpha * beta) * st + (alpha * gamma) * ss,
+          (beta * beta) * tt + (2.0 * beta * gamma) * st + (gamma * gamma) * ss,
+          across.along_s * s + across.along_t * t,
+          beta * t + gamma * s};
+}
+
+/// The frame: normal, direction of Ss, and the third; the coordinate axes where the parametrisation is degenerate.
+void set_frame(const SurfacePoint& middle, ImageBounds& bounds) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  bounds.stretch[0] = bounds.stretch[1] = 1.0;
+  bounds.stretch[2] = 0.0;
+  const Vec3 normal = middle.s_u.cross(middle.s_v);
+  if (normal.norm() > 1e-6 * middle.s_u.norm() * middle.s_v.norm()) {
+    const Vec3 along = middle.s_u.normalized();
+    axes.row(0) = normal.normalized();
+    axes.row(1) = along;
+    axes.row(2) = normal.normalized().cross(along);
+    const Vec3 across = axes.row(2);
+    bounds.stretch[0] = 1.0 / middle.s_u.norm();
+    bounds.stretch[1] = 1.0 / across.dot(middle.s_v);
+    bounds.stretch[2] = -bounds.stretch[0] * bounds.stretch[1] * along.dot(middle.s_v);
+  }
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 3; ++j) bounds.axis[k][j] = axes(k, j);
+  }
+}
+
+void set_middle(const SurfacePoint& middle, ImageBounds& bounds) {
+  set_frame(middle, bounds);
+  const Derivatives<Vec3> derivatives =
+      stretched<Vec3>(bounds.stretch, AcrossS(middle), {middle.s_u, middle.s_v, middle.s_uu, middle.s_uv, middle.s_vv});
+  for (int k = 0; k < 3; ++k) {
+    bounds.middle[k] = middle.s[k];
+    bounds.low[k] = kNothing.low;
+    bounds.high[k] = kNothing.high;
+    for (std::size_t d = 0; d < kDerivatives; ++d) {
+      bounds.derivative[d][k] = Vec3(bounds.axis[k]).dot(derivatives[d]);
+      bounds.spread[d][k] = 0.0;
+    }
+  }
+  for (std::size_t d = 0; d < kDerivatives; ++d) {
+    bounds.self_low[d] = kNothing.low;
+    bounds.self_high[d] = kNothing.high;
+  }
+}
+
+/// A first derivative as a multiple of which it is that in the middle along the latter: where one is at right angles
+/// to something, so is the other, and how fast the parameters run is out of it. As it was where that is not so.
+IntervalVector turned(const IntervalVector& derivative, const Vec3& middle) {
+  const Eigen::Matrix3d frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), middle).toRotationMatrix();
+  const auto along = [&](Eigen::Index axis) {
+    Interval sum;
+    for (std::size_t k = 0; k < 3; ++k) sum = sum + frame(static_cast<Eigen::Index>(k), axis) * derivative[k];
+    return sum;
+  };
+  const Interval speed = along(0);
+  if (!(speed.low > 0.0)) return derivative;
+  const double length = middle.norm();
+  const Interval over = length * inverse(speed), first = over * along(1), second = over * along(2);
+  IntervalVector out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Eigen::Index>(k);
+    out[k] = frame(axis, 1) * first + frame(axis, 2) * second + middle[axis];
+  }
+  return out;
+}
+
+/// The derivatives of 1/2 |S - c|^2 over a piece, whose derivatives of S are `range`. (S - c) . D is that with D as in
+/// the middle, which the control points bound well, and the little that D differs.
+Derivatives<Interval> self_range(const Piece& piece, const ImageBounds& bounds, const IntervalVector& arm,
+                                 const Derivatives<IntervalVector>& range) {
+  Derivatives<Interval> self;
+  for (std::size_t d = 0; d < kDerivatives; ++d) {
+    const Vec3 middle(bounds.derivative[d]);
+    IntervalVector beyond = range[d];
+    for (std::size_t k = 0; k < 3; ++k) beyond[k] = beyond[k] + -middle[static_cast<Eigen::Index>(k)];
+    self[d] = piece.extent(middle) + middle.dot(piece.origin()) + dot(arm, beyond);
+  }
+  return self;
+}
+
+void include_piece(const Piece& piece, const AcrossS& across, ImageBounds& bounds) {
+  PieceRange range = range_of(piece);
+  for (std::size_t k = 0; k < 3; ++k) {
+    range.place[k] = range.place[k] + piece.origin()[static_cast<Eigen::Index>(k)];
+    bounds.low[k] = std::min(bounds.low[k], range.place[k].low);
+    bounds.high[k] = std::max(bounds.high[k], range.place[k].high);
+  }
+  Derivatives<IntervalVector> derivatives = stretched(bounds.stretch, across, range.derivative);
+  const Interval aa = square_sum(bounds.stretch[0] * derivatives[0]), bb = square_sum(derivatives[6]),
+                 ab = dot(bounds.stretch[0] * derivatives[0], derivatives[6]);
+  for (const std::size_t d : {0, 1, 5, 6}) derivatives[d] = turned(derivatives[d], Vec3(bounds.derivative[d]));
+  Derivatives<Interval> self = self_range(piece, bounds, range.place, derivatives);
+  self[2] = self[2] + aa;
+  self[3] = self[3] + ab;
+  self[4] = self[4] + bb;
+  for (std::size_t d = 0; d < kDerivatives; ++d) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double farthest = (derivatives[d][k] + -bounds.derivative[d][k]).magnitude();
+      bounds.spread[d][k] = std::max(bounds.spread[d][k], farthest);
+    }
+    bounds.self_low[d] = std::min(bounds.self_low[d], self[d].low);
+    bounds.self_high[d] = std::max(bounds.self_high[d], self[d].high);
+  }
+}
+
+void widen(double (&low)[3], double (&high)[3], double by) {
+  for (int k = 0; k < 3; ++k) {
+    low[k] -= by;
+    high[k] += by;
+  }
+}
+
+}  // namespace
+
+ImageBounds leaf_bounds(const BezierSpan& span, const LocalRect& rect) {
+  const auto at_s = [&](double x) { return rect.s_min + x * (rect.s_max - rect.s_min); };
+  const auto at_t = [&](double x) { return rect.t_min + x * (rect.t_max - rect.t_min); };
+  HomogeneousDerivatives h;
+  evaluate_taylor(span.taylor, span.degree_u, span.degree_v, at_s(0.5) - 0.5, at_t(0.5) - 0.5, h);
+  ImageBounds bounds;
+  const SurfacePoint middle = scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min);
+  set_middle(middle, bounds);
+  const auto piece = [&](int i, int j) {
+    const double d = 1.0 / kPieces;
+    return Piece(span, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)}, bounds);
+  };
+  for (int k = 0; k < kPieces * kPieces; ++k) include_piece(piece(k / kPieces, k % kPieces), AcrossS(middle), bounds);
+  double size = Vec3(bounds.middle).norm();
+  for (int k = 0; k < 3; ++k) size += bounds.high[k] - bounds.low[k];
+  widen(bounds.low, bounds.high, kWidening * size);
+  for (std::size_t d = 0; d < kDerivatives; ++d) {
+    const double derivative = Vec3(bounds.derivative[d]).norm();
+    for (double& spread : bounds.spread[d]) spread += kWidening * (derivative + spread);
+    const double by = kWidening * (size * derivative + std::abs(bounds.self_low[d]) + std::abs(bounds.self_high[d]));
+    bounds.self_low[d] -= by;
+    bounds.self_high[d] += by;
+  }
+  return bounds;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,13 @@
+#pragma once
+#include "core/geometry/surface/bezier.hpp"
+#include "core/geometry/surface/design_image.hpp"
+#include "tools/design/nurbs/bezier_extraction.hpp"
+
+namespace bladefit {
+
+/// Bounds of a rectangle of a Bezier span. Never too narrow: the
+/// rectangle is cut into pieces, on each of which the control points bound the homogeneous derivatives, and interval
+/// arithmetic carries them through the quotient rule. Cost: four restricted nets and their differences.
+ImageBounds leaf_bounds(const BezierSpan& span, const LocalRect& rect);
+
+}  // namespace bladefit

@@ -1,0 +1,161 @@
+#include "tools/design/loft/loft.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/nearest/global_projection.hpp"
+#include "tools/design/image/image_writer.hpp"
+#include "tools/design/loft/spline_fit.hpp"
+#include "tools/files/tool_error.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::size_t kPointsPerKnot = 3;
+
+std::size_t fewest_points(const BladeSections& sections) {
+  return std::min_element(sections.sections.begin(), sections.sections.end(),
+                          [](const auto& a, const auto& b) { return a.points.size() < b.points.size(); })
+      ->points.size();
+}
+
+void check_degree(const char* option, int degree) {
+  if (degree >= 1 && degree <= static_cast<int>(kMaxDegree)) return;
+  throw DesignError(fmt::format("{} {}: give a degree from 1 to {}", option, degree, kMaxDegree));
+}
+
+void check_knots(const LoftSettings& settings) {
+  if (settings.control_points && !settings.knots.empty()) {
+    throw DesignError("--control-points and --knots: give one of them, not both");
+  }
+  double before = 0;
+  for (const double knot : settings.knots) {
+    if (!(knot > 0 && knot < 1 && knot >= before)) {
+      throw DesignError(fmt::format("--knots {}: give internal knots above 0 and below 1, rising", knot));
+    }
+    before = knot;
+  }
+}
+
+/// Control points along a section.
+int control_point_count(const BladeSections& sections, const LoftSettings& settings) {
+  if (!settings.knots.empty()) return settings.degree + 1 + static_cast<int>(settings.knots.size());
+  const int count = settings.control_points.value_or(default_control_points(sections, settings.degree));
+  if (count > settings.degree) return count;
+  throw DesignError(fmt::format("--control-points {}: a curve of degree {} has at least {}", count, settings.degree,
+                                settings.degree + 1));
+}
+
+void check_counts(const BladeSections& sections, const LoftSettings& settings, int control_points) {
+  const std::size_t count = sections.sections.size();
+  if (count <= static_cast<std::size_t>(settings.span_degree)) {
+    throw DesignError(
+        fmt::format("{}: {} sections are too few for degree {} over them, which needs {}; add sections "
+                    "or lower --span-degree",
+                    sections.file, count, settings.span_degree, settings.span_degree + 1));
+  }
+  for (const BladeSection& section : sections.sections) {
+    if (section.points.size() >= static_cast<std::size_t>(control_points)) continue;
+    throw DesignError(
+        fmt::format("{}:{}: section {} has {} points, too few for {} control points; add points or take "
+                    "fewer control points",
+                    sections.file, section.lines.back(), section.name, section.points.size(), control_points));
+  }
+}
+
+std::vector<ExtendedPoint> fit_section(const BladeSections& sections, const BladeSection& section,
+                                       const SurfaceDirection& direction) {
+  std::vector<ExtendedPoint> points;
+  for (const Eigen::Vector3d& point : section.points) points.emplace_back(point.cast<long double>());
+  const auto parameters = chord_parameters(points);
+  if (!parameters) {
+    throw DesignError(fmt::format("{}:{}: all points of section {} are the same; give points along the section",
+                                  sections.file, section.lines.front(), section.name));
+  }
+  auto controls = fit_spline(direction, *parameters, points);
+  if (controls) return *std::move(controls);
+  throw DesignError(
+      fmt::format("{}:{}: section {} has no points between some knots, so that the curve is not "
+                  "determined; lower --control-points or place --knots where points are",
+                  sections.file, section.lines.front(), section.name));
+}
+
+/// The splines over the sections through their control points: column j holds control points (0, j), (1, j), ...
+std::vector<ExtendedPoint> fit_column(const std::vector<std::vector<ExtendedPoint>>& curves, std::size_t j,
+                                      const SurfaceDirection& direction) {
+  std::vector<long double> parameters;
+  std::vector<ExtendedPoint> points;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    parameters.push_back(static_cast<long double>(k) / static_cast<long double>(curves.size() - 1));
+    points.push_back(curves[k][j]);
+  }
+  auto controls = fit_spline(direction, parameters, points);
+  if (controls) return *std::move(controls);
+  throw DesignError(fmt::format("--span-degree {}: {} sections do not determine the surface; lower it",
+                                direction.degree, curves.size()));
+}
+
+}  // namespace
+
+int default_control_points(const BladeSections& sections, int degree) {
+  const int knots = static_cast<int>(fewest_points(sections) / kPointsPerKnot);
+  return std::max(knots - degree - 1, degree + 1);
+}
+
+NurbsSurface loft(const BladeSections& sections, const LoftSettings& settings, double mm_per_unit) {
+  check_degree("--degree", settings.degree);
+  check_degree("--span-degree", settings.span_degree);
+  NurbsSurface surface;
+  surface.name = "lofted surface";
+  check_knots(settings);
+  const int count = control_point_count(sections, settings);
+  check_counts(sections, settings, count);
+  surface.v = clamped_direction(settings.degree,
+                                settings.knots.empty() ? uniform_knots(count - settings.degree - 1) : settings.knots);
+  const int span_knots = static_cast<int>(sections.sections.size()) - settings.span_degree - 1;
+  surface.u = clamped_direction(settings.span_degree, uniform_knots(span_knots));
+  std::vector<std::vector<ExtendedPoint>> curves;
+  for (const BladeSection& section : sections.sections) curves.push_back(fit_section(sections, section, surface.v));
+  const auto count_v = static_cast<std::size_t>(surface.v.control_points);
+  surface.control_points.resize(curves.size() * count_v);
+  surface.weights.assign(curves.size() * count_v, 1.0);
+  for (std::size_t j = 0; j < count_v; ++j) {
+    const std::vector<ExtendedPoint> column = fit_column(curves, j, surface.u);
+    // Rounded in the unit of the file before it is turned to mm, so that a file in that unit holds the same numbers.
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      surface.control_points[i * count_v + j] = mm_per_unit * column[i].cast<double>();
+    }
+  }
+  check_surface(surface, sections.file);
+  return surface;
+}
+
+LoftDeviation loft_deviation(const NurbsSurface& surface, const BladeSections& sections, double mm_per_unit) {
+  // The side of the material plays no part: the points have no directions.
+  const std::vector<std::byte> image = write_image({surface}, DesignUnit::mm, 1);
+  DesignImage design;
+  if (const Status status = DesignImage::open(image, design); status != Status::ok) {
+    throw DesignError(fmt::format("{}: the lofted surface is not valid: {}; look for points that are far off",
+                                  sections.file, status_text(status)));
+  }
+  LoftDeviation deviation;
+  double sum = 0;
+  for (std::size_t s = 0; s < sections.sections.size(); ++s) {
+    const BladeSection& section = sections.sections[s];
+    for (std::size_t k = 0; k < section.points.size(); ++k, ++deviation.points) {
+      const ProjectionQuery query{mm_per_unit * section.points[k], Vec3::Zero(), 0};
+      const double squared = project_global(Surface(design), query, nullptr).nearest.distance_squared();
+      sum += squared;
+      if (std::sqrt(squared) <= deviation.largest_mm) continue;
+      deviation.largest_mm = std::sqrt(squared);
+      deviation.section = s;
+      deviation.point = k;
+    }
+  }
+  deviation.rms_mm = std::sqrt(sum / static_cast<double>(deviation.points));
+  return deviation;
+}
+
+}  // namespace bladefit

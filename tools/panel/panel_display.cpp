@@ -1,0 +1,102 @@
+#include "tools/panel/panel_display.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace bladefit {
+namespace {
+
+constexpr std::chrono::milliseconds kTurn{200};
+constexpr std::chrono::seconds kLineEvery{1};
+constexpr std::chrono::seconds kRateOver{3};
+
+// ECMA-48 and xterm: the second screen, no cursor; and back.
+constexpr const char* kTakeScreen = "\x1b[?1049h\x1b[?25l";
+constexpr const char* kGiveScreenBack = "\x1b[?25h\x1b[?1049l";
+constexpr const char* kHome = "\x1b[H";
+constexpr const char* kClearLine = "\x1b[K";
+constexpr const char* kClearBelow = "\x1b[J";
+
+std::pair<int, int> screen_size() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) {
+    return {kScreenWidth, kScreenHeight};
+  }
+  return {size.ws_col, size.ws_row};
+}
+
+// https://no-color.org: any value but the empty one.
+bool colour_is_wanted() {
+  const char* const no_colour = std::getenv("NO_COLOR");
+  return no_colour == nullptr || *no_colour == '\0';
+}
+
+}  // namespace
+
+PanelDisplay::PanelDisplay(PanelClient client) : client_(std::move(client)), terminal_(isatty(STDOUT_FILENO) == 1) {
+  view_.address = client_.address();
+  view_.colour = terminal_ && colour_is_wanted();
+}
+
+PanelDisplay::~PanelDisplay() {
+  if (!screen_taken_) return;
+  std::fputs(kGiveScreenBack, stdout);
+  std::fflush(stdout);
+}
+
+std::string PanelDisplay::turn() {
+  const Clock::time_point now = Clock::now();
+  if (now - last_turn_ < kTurn) return error_;
+  last_turn_ = now;
+  error_ = client_.read(view_.state);
+  view_.connected = error_.empty();
+  if (view_.connected) {
+    view_.known = true;
+    measure_rate(now);
+  }
+  if (!view_.known) return error_;
+  if (terminal_) {
+    show_screen();
+  } else {
+    show_line(now);
+  }
+  return error_;
+}
+
+void PanelDisplay::measure_rate(Clock::time_point now) {
+  const std::uint32_t points = view_.state.points;
+  // Fewer points than before: another session, or a reset.
+  if (!counts_.empty() && points < counts_.back().second) counts_.clear();
+  counts_.emplace_back(now, points);
+  while (now - counts_.front().first > kRateOver) counts_.pop_front();
+  const std::chrono::duration<double> span = now - counts_.front().first;
+  view_.points_per_second = span.count() > 0 ? (points - counts_.front().second) / span.count() : 0;
+}
+
+void PanelDisplay::show_screen() {
+  std::string out = screen_taken_ ? "" : kTakeScreen;
+  screen_taken_ = true;
+  out += kHome;
+  const auto [width, height] = screen_size();
+  const std::vector<std::string> lines = draw_screen(view_, width, height);
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    // No line end after the last one: it would scroll a full screen.
+    out += (row == 0 ? "" : "\r\n") + lines[row] + kClearLine;
+  }
+  out += kClearBelow;
+  std::fwrite(out.data(), 1, out.size(), stdout);
+  std::fflush(stdout);
+}
+
+void PanelDisplay::show_line(Clock::time_point now) {
+  if (now - last_line_ < kLineEvery) return;
+  last_line_ = now;
+  fmt::print("{}\n", status_line(view_));
+  std::fflush(stdout);
+}
+
+}  // namespace bladefit

@@ -1,0 +1,40 @@
+#pragma once
+#include <chrono>
+#include <deque>
+#include <string>
+#include <utility>
+
+#include "tools/panel/panel_client.hpp"
+#include "tools/panel/screen.hpp"
+
+namespace bladefit {
+
+/// Shows a panel on standard output: on a terminal a screen that is redrawn in place, elsewhere a line a second.
+/// The terminal is as it was when the display goes.
+class PanelDisplay {
+ public:
+  explicit PanelDisplay(PanelClient client);
+  ~PanelDisplay();
+  PanelDisplay(const PanelDisplay&) = delete;
+  PanelDisplay& operator=(const PanelDisplay&) = delete;
+
+  /// Reads the panel and shows what it says, or that it does not answer. Returns the error; empty = none. Does nothing
+  /// when the last turn was less than a fifth of a second ago.
+  std::string turn();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void measure_rate(Clock::time_point now);
+  void show_screen();
+  void show_line(Clock::time_point now);
+
+  PanelClient client_;
+  ScreenView view_;
+  bool terminal_;
+  bool screen_taken_ = false;
+  std::string error_;
+  Clock::time_point last_turn_{}, last_line_{};
+  std::deque<std::pair<Clock::time_point, std::uint32_t>> counts_;  // of the last seconds
+};
+
+}  // namespace bladefit

@@ -1,0 +1,114 @@
+#include "tools/results/session_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "drivers/text/read_file.hpp"
+#include "firmware_bridge/host/journal/journal.hpp"
+#include "tools/files/tool_error.hpp"
+#include "tools/results/result_file.hpp"
+#include "tools/results/verdicts_file.hpp"
+
+namespace bladefit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxFileSize = std::size_t{1} << 30U;
+
+void check_directory(const std::string& directory) {
+  std::error_code error;
+  if (fs::is_directory(directory, error)) return;
+  throw DesignError(fmt::format("{}: {}; give the folder that `bladefit run --session` wrote", directory,
+                                fs::exists(directory, error) ? "is not a folder" : "there is no such folder"));
+}
+
+JournalContent read_recording(const fs::path& folder) {
+  JournalContent journal;
+  if (const HostError error = read_journal(folder / kJournalFile, journal)) throw DesignError(error.message);
+  if (journal.exists) return journal;
+  throw DesignError(fmt::format("{}: holds no {} of a session; give the folder that `bladefit run --session` wrote",
+                                folder.string(), kJournalFile));
+}
+
+bool is_finite(const std::array<double, 3>& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+}
+
+/// The localizer refuses the other points, so that they have no verdict.
+bool is_usable(const StreamEvent& event) {
+  return event.kind == EventKind::point && is_finite(event.point.position) && is_finite(event.point.approach);
+}
+
+std::string read_part(const fs::path& folder, const char* name, const JournalContent& journal) {
+  const fs::path path = folder / name;
+  if (std::error_code error; !fs::exists(path, error)) {
+    const auto points = std::count_if(journal.events.begin(), journal.events.end(), is_usable);
+    throw DesignError(
+        fmt::format("{}: is missing: the session still runs or was cut off ({} points are recorded); wait for its end, "
+                    "or run it again with the same --session",
+                    path.string(), points));
+  }
+  std::string text;
+  if (const std::string reason = read_file(path, kMaxFileSize, text); !reason.empty()) {
+    throw DesignError(fmt::format("{}: cannot be read ({}); check the rights of the file", path.string(), reason));
+  }
+  return text;
+}
+
+void check_same_run(const std::string& directory, const std::vector<ResultPoint>& result,
+                    const std::vector<ReportPoint>& points) {
+  const bool same = std::equal(
+      result.begin(), result.end(), points.begin(), points.end(),
+      [](const ResultPoint& a, const ReportPoint& b) { return a.index + 1 == b.sequence && a.state == b.state; });
+  if (same) return;
+  throw DesignError(
+      fmt::format("{}: {} ({} points) and {} ({} points) are not of one run; run the session again with the same "
+                  "--session",
+                  directory, kResultFile, result.size(), kVerdictsFile, points.size()));
+}
+
+/// Sequence of the newest point that has a verdict when the session ends; 0 = none.
+std::uint32_t newest_point(const JournalContent& journal) {
+  for (auto event = journal.events.rbegin(); event != journal.events.rend(); ++event) {
+    if (event->kind == EventKind::reset) return 0;
+    if (is_usable(*event)) return event->point.sequence;
+  }
+  return 0;
+}
+
+/// A session that was resumed leaves the result of its earlier part until it ends.
+void check_up_to_date(const std::string& directory, const JournalContent& journal,
+                      const std::vector<ReportPoint>& points) {
+  const std::uint32_t recorded = newest_point(journal);
+  const std::uint32_t judged = points.empty() ? 0 : points.back().sequence;
+  if (recorded == judged) return;
+  throw DesignError(
+      fmt::format("{}: {} ends with point {}, the recording with point {}: the session was resumed and still runs or "
+                  "was cut off; wait for its end, or run it again with the same --session",
+                  directory, kResultFile, judged, recorded));
+}
+
+}  // namespace
+
+SessionReport read_session(const std::string& directory) {
+  check_directory(directory);
+  const fs::path folder(directory);
+  const JournalContent journal = read_recording(folder);
+  SessionReport report;
+  report.name = fs::weakly_canonical(folder).filename().string();
+  report.identity = journal.identity;
+  report.result_text = read_part(folder, kResultFile, journal);
+  const std::string verdicts = read_part(folder, kVerdictsFile, journal);
+  ResultContent result = parse_result(folder / kResultFile, report.result_text);
+  report.points = parse_verdicts(folder / kVerdictsFile, verdicts, result.fit.mm_per_unit);
+  check_same_run(directory, result.points, report.points);
+  check_up_to_date(directory, journal, report.points);
+  report.fit = std::move(result.fit);
+  return report;
+}
+
+}  // namespace bladefit

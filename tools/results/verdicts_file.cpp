@@ -1,0 +1,122 @@
+#include "tools/results/verdicts_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "drivers/text/text_number.hpp"
+#include "tools/files/tool_error.hpp"
+#include "tools/results/words.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::array<std::string_view, 14> kColumns = {
+    "sequence",     "patch",          "u",     "v",      "kind", "region", "distance_mm",
+    "tolerance_mm", "uncertainty_mm", "state", "action", "x",    "y",      "z"};
+constexpr std::size_t kQuotedCharacters = 40;
+constexpr const char* kMend = "the file is damaged or foreign; run the session again with the same --session";
+
+/// One line of the file, cut at its commas.
+struct Row {
+  const std::string& path;
+  std::size_t line = 0;
+  std::array<std::string_view, kColumns.size()> cells{};
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw DesignError(fmt::format("{}:{}: {}; {}", path, line, what, kMend));
+  }
+
+  [[noreturn]] void refuse_cell(std::size_t column, const char* wanted) const {
+    refuse(fmt::format("column {}: '{}' is {}", kColumns[column], cells[column].substr(0, kQuotedCharacters), wanted));
+  }
+
+  [[nodiscard]] double finite(std::size_t column) const {
+    const std::optional<double> value = parse_finite(cells[column]);
+    if (!value) refuse_cell(column, "not a finite number");
+    return *value;
+  }
+
+  /// A number that is not negative; infinity is allowed.
+  [[nodiscard]] double bound(std::size_t column) const {
+    if (cells[column] == "inf") return std::numeric_limits<double>::infinity();
+    const double value = finite(column);
+    if (value < 0) refuse_cell(column, "negative");
+    return value;
+  }
+
+  [[nodiscard]] double parameter(std::size_t column) const {
+    const double value = finite(column);
+    if (value < 0 || value > 1) refuse_cell(column, "not within 0 to 1");
+    return value;
+  }
+
+  [[nodiscard]] std::uint32_t whole(std::size_t column) const {
+    const std::optional<std::uint32_t> value = parse_whole<std::uint32_t>(cells[column]);
+    if (!value) refuse_cell(column, "not a whole number");
+    return *value;
+  }
+
+  template <typename Value, std::size_t count>
+  [[nodiscard]] Value one_of(std::size_t column, const std::array<std::string_view, count>& words) const {
+    const std::optional<Value> value = value_of<Value>(words, cells[column]);
+    if (!value) refuse_cell(column, "not a word of this column");
+    return *value;
+  }
+};
+
+Row cut(const std::string& path, std::size_t line, std::string_view text) {
+  Row row{path, line};
+  std::size_t count = 0;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    if (count < row.cells.size()) row.cells.at(count) = text.substr(0, comma);
+    ++count;
+    if (comma == std::string_view::npos) break;
+    text.remove_prefix(comma + 1);
+  }
+  if (count != row.cells.size()) row.refuse(fmt::format("{} columns where {} belong", count, row.cells.size()));
+  return row;
+}
+
+ReportPoint point_of(const Row& row, double mm_per_unit) {
+  ReportPoint point{.sequence = row.whole(0),
+                    .position = {},
+                    .patch = row.whole(1),
+                    .u = row.parameter(2),
+                    .v = row.parameter(3),
+                    .kind = row.one_of<FootKind>(4, kKindWords),
+                    .region = row.one_of<Region>(5, kRegionWords),
+                    .distance = row.finite(6) / mm_per_unit,
+                    .tolerance = row.bound(7) / mm_per_unit,
+                    .uncertainty = row.bound(8) / mm_per_unit,
+                    .state = row.one_of<PointState>(9, kStateWords),
+                    .action = row.one_of<Action>(10, kActionWords)};
+  for (std::size_t axis = 0; axis < 3; ++axis) point.position.at(axis) = row.finite(11 + axis) / mm_per_unit;
+  return point;
+}
+
+}  // namespace
+
+std::vector<ReportPoint> parse_verdicts(const std::string& path, std::string_view text, double mm_per_unit) {
+  std::vector<ReportPoint> points;
+  for (std::size_t line = 1; !text.empty() || line == 1; ++line) {
+    const std::size_t end = text.find('\n');
+    const Row row = cut(path, line, text.substr(0, end));
+    if (end == std::string_view::npos) row.refuse("the line has no end");
+    text.remove_prefix(end + 1);
+    if (line == 1) {
+      if (row.cells != kColumns) row.refuse("these are not the columns of a verdicts.csv");
+      continue;
+    }
+    points.push_back(point_of(row, mm_per_unit));
+    if (points.size() > 1 && points.back().sequence <= points[points.size() - 2].sequence)
+      row.refuse("the sequence does not rise");
+  }
+  return points;
+}
+
+}  // namespace bladefit
