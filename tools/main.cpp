@@ -63,7 +63,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
-  } catch (const bladefit::DesignError& error) {
+  } catch (const bladefit::ToolError& error) {
     std::fprintf(stderr, "bladefit: %s\n", error.what());
     return error.exit_code();
   } catch (const std::exception& error) {

@@ -1,5 +1,5 @@
 #pragma once
-#include "core/fit/pose.hpp"
+#include "core/algebra/matrix.hpp"
 
 namespace bladefit {
 

@@ -1,5 +1,7 @@
 #pragma once
-#include "core/fit/quadratic_model.hpp"
+#include <cstdint>
+
+#include "core/fit/motion_frame.hpp"
 
 namespace bladefit {
 

@@ -1,13 +1,7 @@
 #pragma once
-#include <Eigen/Core>
-
-#include "core/geometry/surface/foot.hpp"
+#include "core/algebra/matrix.hpp"
 
 namespace bladefit {
-
-using Mat3 = Eigen::Matrix<double, 3, 3, Eigen::DontAlign>;
-using Vec6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
-using Mat6 = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
 
 /// Rigid motion machine -> design: r = rotation * R + translation [mm] (thesis 3-9).
 struct Pose {

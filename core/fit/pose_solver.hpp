@@ -1,6 +1,7 @@
 #pragma once
 #include "core/algebra/symmetric_eigen.hpp"
 #include "core/fit/motion_lock.hpp"
+#include "core/fit/quadratic_model.hpp"
 
 namespace bladefit {
 

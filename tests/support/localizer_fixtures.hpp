@@ -11,12 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/surface/design_image.hpp"
 #include "core/geometry/surface/surface.hpp"
 #include "core/localizer.hpp"
 #include "drivers/replay/points_csv.hpp"
 #include "tests/support/reference_case.hpp"
-#include "tools/design/design_file.hpp"
 #include "tools/design/image/image_writer.hpp"
+#include "tools/design/load_design.hpp"
 
 namespace bladefit::testing {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
 
 namespace bladefit::testing {
 

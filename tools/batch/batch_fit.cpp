@@ -161,7 +161,7 @@ FitResult fit_points(const DesignImage& design, const FitPlan& plan, const std::
   sum_up(result, as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points));
   result.aberrant = aberrant_points(result.report, plan.localizer, result.verdicts, points);
   if (result.all.count < 6) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: {} points count in the fit, at least 6 are needed ({} of {} are outside the window or at an "
                     "edge); probe more points",
                     name, result.all.count, points.size() - result.all.count, points.size()));

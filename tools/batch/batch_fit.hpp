@@ -36,7 +36,7 @@ struct FitResult {
 /// The batch fit of `points`: all are projected at the start pose as plan.starts says, then refined until every foot is
 /// proven. First feet that were only tracked are proven afterwards; where one was not the nearest, the fit starts anew
 /// from searched ones, so that the optimum does not depend on plan.starts.
-/// Throws DesignError where fewer than six points count or a point cannot be used; `name` names the points there.
+/// Throws ToolError where fewer than six points count or a point cannot be used; `name` names the points there.
 [[nodiscard]] FitResult fit_points(const DesignImage& design, const FitPlan& plan,
                                    const std::vector<ProbePoint>& points, const std::string& name);
 

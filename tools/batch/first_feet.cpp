@@ -58,7 +58,7 @@ void check(Status status, const ProbePoint& point, const std::string& name) {
                                                             "its direction is no unit vector; correct it, or name "
                                                             "the unit of the points with --units"
                                                           : status_text(status);
-  throw DesignError(fmt::format("{}: point {} cannot be used: {}", name, point.sequence, mend));
+  throw ToolError(fmt::format("{}: point {} cannot be used: {}", name, point.sequence, mend));
 }
 
 std::uint32_t stage_from_places(Localizer& localizer, const FirstPlaces& first, const std::vector<ProbePoint>& points,
@@ -92,7 +92,7 @@ FootStarts parse_starts(const std::string& text) {
   if (text == "curves") return FootStarts::curves;
   if (text == "neighbour") return FootStarts::neighbour;
   if (text == "global") return FootStarts::global;
-  throw DesignError(fmt::format("--starts {}: give curves, neighbour or global", text));
+  throw ToolError(fmt::format("--starts {}: give curves, neighbour or global", text));
 }
 
 FirstPlaces searched_places(const Surface& surface, const LocalizerConfig& config,

@@ -16,7 +16,7 @@ enum class FootStarts {
   curves,     ///< Newton's method from the foot of the path's curve, which is followed along it (thesis 5.3)
 };
 
-/// The name on the command line. Throws DesignError for any other than curves, neighbour and global.
+/// The name on the command line. Throws ToolError for any other than curves, neighbour and global.
 [[nodiscard]] FootStarts parse_starts(const std::string& text);
 
 /// Where Newton's method is to start for each point.
@@ -36,7 +36,7 @@ struct FirstPlaces {
                                               const std::vector<ProbePoint>& points);
 
 /// Stages all points, their first feet found as `starts` says. Returns the number of global searches made besides those
-/// that the localizer counts itself. Throws DesignError for a point that cannot be used; `name` names the points there.
+/// that the localizer counts itself. Throws ToolError for a point that cannot be used; `name` names the points there.
 std::uint32_t stage_points(Localizer& localizer, const Surface& surface, const LocalizerConfig& config,
                            const std::vector<ProbePoint>& points, FootStarts starts, const std::string& name);
 

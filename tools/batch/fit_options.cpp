@@ -21,12 +21,12 @@ CLI::Option* add(CLI::App& command, const std::string& name, std::optional<T>& t
 }
 
 void take(const ConfigError& error) {
-  if (error) throw DesignError(error.message);
+  if (error) throw ToolError(error.message);
 }
 
 double positive(double value, const char* option) {
   if (!(value > 0.0 && value <= kLargestSetting)) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: {} is not a positive length; give one above 0, up to {}", option, value, kLargestSetting));
   }
   return value;
@@ -35,15 +35,15 @@ double positive(double value, const char* option) {
 void plan_boxes(const FitSettings& settings, const DesignImage& design, ToleranceMap& map) {
   if (!settings.leading_edge) return;
   if (settings.leading_edge->size() > ToleranceMap::kMaxBoxes) {
-    throw DesignError(fmt::format("--leading-edge: {} boxes, at most {} are possible", settings.leading_edge->size(),
-                                  ToleranceMap::kMaxBoxes));
+    throw ToolError(fmt::format("--leading-edge: {} boxes, at most {} are possible", settings.leading_edge->size(),
+                                ToleranceMap::kMaxBoxes));
   }
   for (const std::string& text : *settings.leading_edge) {
     ParameterBox box;
     take(parse_leading_edge(text, box));
     if (box.patch >= design.patches().size()) {
-      throw DesignError(fmt::format("--leading-edge {}: the design has {} patch(es), numbered from 0", text,
-                                    design.patches().size()));
+      throw ToolError(fmt::format("--leading-edge {}: the design has {} patch(es), numbered from 0", text,
+                                  design.patches().size()));
     }
     map.boxes[map.box_count++] = box;
   }
@@ -53,7 +53,7 @@ void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
   ToleranceMap& map = plan.localizer.tolerance;
   const double ratio = settings.ratio.value_or(10.0);
   if (!(ratio >= 1.0 && ratio <= kLargestSetting)) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("--ratio: {} is no ratio; give a number from 1 to {}, since the rest has the wider tolerance",
                     ratio, kLargestSetting));
   }
@@ -69,7 +69,7 @@ void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
   }
   map.transition = settings.transition.value_or(0.0);
   if (!(map.transition >= 0.0) || map.transition > 1.0)
-    throw DesignError(fmt::format("--transition: {} is not a width in patch parameters, 0 to 1", map.transition));
+    throw ToolError(fmt::format("--transition: {} is not a width in patch parameters, 0 to 1", map.transition));
   if (settings.tolerance && map.box_count == 0) {
     plan.note += fmt::format("no --leading-edge is given: the whole blade is held to the rest tolerance, {:g} {}\n",
                              map.rest_mm / plan.mm_per_unit, plan.units);
@@ -86,33 +86,33 @@ void plan_mode(const FitSettings& settings, FitPlan& plan) {
   plan.mode = settings.mode.value_or("least_squares");
   const auto mode = std::find_if(kModes.begin(), kModes.end(), [&](const auto& m) { return plan.mode == m.first; });
   if (mode == kModes.end()) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("--mode {}: give least_squares, minimax, range, min_tolerance or constrained", plan.mode));
   }
   plan.localizer.mode = mode->second;
   const std::string regions = settings.regions.value_or("follow");
   if (regions != "follow" && regions != "fixed")
-    throw DesignError(fmt::format("--regions {}: give follow or fixed", regions));
+    throw ToolError(fmt::format("--regions {}: give follow or fixed", regions));
   plan.localizer.regions = regions == "fixed" ? RegionPolicy::fixed : RegionPolicy::follow;
   const std::string edges = settings.edges.value_or("skip");
-  if (edges != "skip" && edges != "use") throw DesignError(fmt::format("--edges {}: give skip or use", edges));
+  if (edges != "skip" && edges != "use") throw ToolError(fmt::format("--edges {}: give skip or use", edges));
   plan.localizer.edges = edges == "use" ? EdgePolicy::use : EdgePolicy::skip;
   if (settings.lock) {
     if (const ConfigError error = parse_lock(*settings.lock, plan.localizer.locked))
-      throw DesignError("--lock: " + error.message);
+      throw ToolError("--lock: " + error.message);
   }
 }
 
 void plan_loss(const FitSettings& settings, FitPlan& plan) {
   const std::string loss = settings.loss.value_or("none");
   if (loss != "none" && loss != "huber" && loss != "tukey")
-    throw DesignError(fmt::format("--loss {}: give none, huber or tukey", loss));
+    throw ToolError(fmt::format("--loss {}: give none, huber or tukey", loss));
   if (loss == "none") {
-    if (settings.loss_scale) throw DesignError("--loss-scale: there is no loss; add --loss huber or tukey");
+    if (settings.loss_scale) throw ToolError("--loss-scale: there is no loss; add --loss huber or tukey");
     return;
   }
   if (plan.localizer.mode != FitMode::least_squares)
-    throw DesignError(fmt::format("--loss {}: only for --mode least_squares; leave it out", loss));
+    throw ToolError(fmt::format("--loss {}: only for --mode least_squares; leave it out", loss));
   plan.localizer.loss = loss == "huber" ? Loss::huber : Loss::tukey;
   if (settings.loss_scale)
     plan.localizer.loss_scale_mm = positive(*settings.loss_scale, "--loss-scale") * plan.mm_per_unit;
@@ -122,16 +122,16 @@ void plan_loss(const FitSettings& settings, FitPlan& plan) {
 void check_mode(const FitPlan& plan) {
   const LocalizerConfig& fit = plan.localizer;
   if (fit.mode == FitMode::constrained && !std::isfinite(fit.tolerance.rest_mm)) {
-    throw DesignError(
+    throw ToolError(
         "--mode constrained: no tolerance is given; add --tolerance, or use --mode min_tolerance to find the smallest "
         "one");
   }
   if (fit.mode != FitMode::min_tolerance) return;
   if (fit.tolerance.box_count == 0) {
-    throw DesignError("--mode min_tolerance: no leading edge is given; add --leading-edge, or use --mode minimax");
+    throw ToolError("--mode min_tolerance: no leading edge is given; add --leading-edge, or use --mode minimax");
   }
   if (fit.ratio < 1.0) {
-    throw DesignError(fmt::format(
+    throw ToolError(fmt::format(
         "--rest-tolerance: it is {:g} times --tolerance; min_tolerance needs the wider one elsewhere", fit.ratio));
   }
 }
@@ -147,7 +147,7 @@ void plan_start(const std::string& path, FitPlan& plan) {
 void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan& plan) {
   const bool inch_design = design.header().design_unit == static_cast<std::uint32_t>(DesignUnit::inch);
   plan.units = settings.units.value_or(inch_design ? "in" : "mm");
-  if (plan.units != "mm" && plan.units != "in") throw DesignError(fmt::format("--units {}: give mm or in", plan.units));
+  if (plan.units != "mm" && plan.units != "in") throw ToolError(fmt::format("--units {}: give mm or in", plan.units));
   plan.mm_per_unit = plan.units == "in" ? kMmPerInch : 1.0;
 }
 
@@ -243,7 +243,7 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   if (settings.start) plan_start(*settings.start, plan);
   const double radius = settings.probe_radius.value_or(0.0);
   if (!(radius >= 0.0 && radius <= kLargestSetting)) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("--probe-radius: {} is not a radius; give 0 or more, up to {}", radius, kLargestSetting));
   }
   plan.localizer.probe_radius_mm = radius * plan.mm_per_unit;

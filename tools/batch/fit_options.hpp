@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "config/fit_settings.hpp"
+#include "core/geometry/surface/design_image.hpp"
 #include "core/localizer.hpp"
 #include "tools/batch/first_feet.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 
@@ -31,10 +33,10 @@ struct FitPlan {
 /// Names of the degrees of freedom in a set of bits of motion_lock.hpp: tx, ry ...
 [[nodiscard]] std::vector<std::string> names_of_locked(std::uint8_t locked);
 
-/// Where the design's outward side comes from. Throws DesignError for a text that is not +, - or auto.
+/// Where the design's outward side comes from. Throws ToolError for a text that is not +, - or auto.
 [[nodiscard]] OutwardOption outward_of(const FitSettings& settings);
 
-/// Checks the settings against the design and turns lengths to mm. Throws DesignError (bad_input) that names the option
+/// Checks the settings against the design and turns lengths to mm. Throws ToolError (bad_input) that names the option
 /// and the mend.
 [[nodiscard]] FitPlan plan_fit(const FitSettings& settings, const DesignImage& design);
 

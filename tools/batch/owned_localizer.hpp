@@ -10,7 +10,7 @@
 
 namespace bladefit {
 
-/// A localizer for `points` points in memory of its own. Throws DesignError where it cannot start.
+/// A localizer for `points` points in memory of its own. Throws ToolError where it cannot start.
 class OwnedLocalizer {
  public:
   OwnedLocalizer(const DesignImage& design, LocalizerConfig config, std::size_t points) {
@@ -18,7 +18,7 @@ class OwnedLocalizer {
     const std::size_t size = Localizer::memory_required(config);
     memory_.reset(static_cast<std::byte*>(::operator new(size, std::align_val_t(64))));
     const Status status = Localizer::create({memory_.get(), size}, design, config, localizer_);
-    if (status != Status::ok) throw DesignError(fmt::format("the fit cannot start: {}", status_text(status)));
+    if (status != Status::ok) throw ToolError(fmt::format("the fit cannot start: {}", status_text(status)));
   }
   Localizer& operator*() const { return *localizer_; }
   Localizer* operator->() const { return localizer_; }

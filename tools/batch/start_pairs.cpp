@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "drivers/text/csv_table.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -38,7 +39,7 @@ Pair parse_pair(const CsvRow& row) {
     }
     std::string error;
     const std::optional<double> value = finite_cell(row, k, kFormat, error);
-    if (!value) throw DesignError(error);
+    if (!value) throw ToolError(error);
     pair.numbers[row.columns[k]] = *value;
   }
   return pair;
@@ -50,7 +51,7 @@ std::vector<Pair> parse_pairs(std::string_view text, const std::string& name) {
     pairs.push_back(parse_pair(row));
     return std::string();
   });
-  if (!error.empty()) throw DesignError(error);
+  if (!error.empty()) throw ToolError(error);
   return pairs;
 }
 
@@ -59,7 +60,7 @@ void check_spread(const Points& points, const char* what, const std::string& pat
   const Points centred = points.colwise() - points.rowwise().mean();
   const Eigen::Vector3d extents = Eigen::JacobiSVD<Eigen::Matrix3d>(centred * centred.transpose()).singularValues();
   if (extents[1] > kInLine * kInLine * extents[0]) return;
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: the {} points stand in one line, which leaves the turn about it open; add a pair "
                   "away from the line",
                   path, what));
@@ -70,7 +71,7 @@ void check_spread(const Points& points, const char* what, const std::string& pat
 StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
   const std::vector<Pair> pairs = parse_pairs(read_text(path, "start pairs"), path);
   if (pairs.size() < 3)
-    throw DesignError(fmt::format("{}: {} pairs, at least 3 are needed; add a line for each pair", path, pairs.size()));
+    throw ToolError(fmt::format("{}: {} pairs, at least 3 are needed; add a line for each pair", path, pairs.size()));
   Points measured(3, pairs.size()), design(3, pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -8,11 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include "core/geometry/surface/design_image.hpp"
 #include "tools/commands/design_notes.hpp"
-#include "tools/design/design_file.hpp"
 #include "tools/design/image/c_array.hpp"
+#include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/files/output_file.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -50,7 +52,7 @@ void check_outputs(const CompileOptions& options) {
   refuse_overwriting(options.output, "design", options.design);
   refuse_overwriting(options.c_array, "design", options.design);
   if (same_file(options.output, options.c_array)) {
-    throw DesignError(fmt::format("{}: is both -o and --c-array; give two names", options.output));
+    throw ToolError(fmt::format("{}: is both -o and --c-array; give two names", options.output));
   }
 }
 
@@ -86,8 +88,8 @@ void print_box(const ImageHeader& header) {
 DesignImage open_compiled(const CompileOptions& options, const LoadedDesign& design) {
   DesignImage image;
   if (const Status status = DesignImage::open(design.image, image); status != Status::ok) {
-    throw DesignError(fmt::format("{}: the compiled image is not valid ({}); please report this design", options.design,
-                                  status_text(status)));
+    throw ToolError(fmt::format("{}: the compiled image is not valid ({}); please report this design", options.design,
+                                status_text(status)));
   }
   return image;
 }

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
 
 namespace bladefit {
 

@@ -13,6 +13,7 @@
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/design_notes.hpp"
 #include "tools/files/output_file.hpp"
+#include "tools/files/read_text.hpp"
 
 namespace bladefit {
 namespace {
@@ -36,12 +37,12 @@ std::vector<std::size_t> read_subset(const std::string& path, std::size_t rows) 
       std::size_t value = 0;
       const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + last, value);
       if (error != std::errc() || stop != text.data() + last) {
-        throw DesignError(fmt::format("{}:{}: '{}' is not a row number; write one number, counted from 0, a line", path,
-                                      line, text.substr(begin, last - begin)));
+        throw ToolError(fmt::format("{}:{}: '{}' is not a row number; write one number, counted from 0, a line", path,
+                                    line, text.substr(begin, last - begin)));
       }
       if (value >= rows) {
-        throw DesignError(fmt::format("{}:{}: row {} is not in the points file, which has rows 0 to {}", path, line,
-                                      value, rows - 1));
+        throw ToolError(fmt::format("{}:{}: row {} is not in the points file, which has rows 0 to {}", path, line,
+                                    value, rows - 1));
       }
       indices.push_back(value);
     }
@@ -49,20 +50,20 @@ std::vector<std::size_t> read_subset(const std::string& path, std::size_t rows) 
   }
   std::sort(indices.begin(), indices.end());
   if (const auto twice = std::adjacent_find(indices.begin(), indices.end()); twice != indices.end())
-    throw DesignError(fmt::format("{}: row {} is named twice; name each row once", path, *twice));
+    throw ToolError(fmt::format("{}: row {} is named twice; name each row once", path, *twice));
   return indices;
 }
 
 std::vector<ProbePoint> read_points(const LocalizeFlags& flags, double mm_per_unit) {
   PointsFile file = read_points_csv(flags.points, mm_per_unit);
-  if (!file.error.empty()) throw DesignError(file.error);
+  if (!file.error.empty()) throw ToolError(file.error);
   if (!flags.subset.empty()) {
     std::vector<ProbePoint> chosen;
     for (const std::size_t index : read_subset(flags.subset, file.points.size())) chosen.push_back(file.points[index]);
     file.points = std::move(chosen);
   }
   if (file.points.size() < 6) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: {} points, at least 6 are needed for the six degrees of freedom; probe more points",
                     flags.subset.empty() ? flags.points : flags.subset, file.points.size()));
   }
@@ -82,14 +83,14 @@ void check_result_file(const LocalizeFlags& flags, const FitSettings& settings) 
 int localize(const LocalizeFlags& flags) {
   FitSettings from_file;
   if (!flags.config.empty()) {
-    if (const ConfigError error = load_fit(flags.config, from_file)) throw DesignError(error.message);
+    if (const ConfigError error = load_fit(flags.config, from_file)) throw ToolError(error.message);
   }
   const FitSettings settings = merged(flags.fit, from_file);
   check_result_file(flags, settings);
   const LoadedDesign loaded = load_design(flags.design, outward_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
-    throw DesignError(fmt::format("{}: {}", flags.design, status_text(status)));
+    throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));
   FitPlan plan = plan_fit(settings, design);
   if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
   const std::vector<ProbePoint> points = read_points(flags, plan.mm_per_unit);
@@ -107,7 +108,7 @@ int localize(const LocalizeFlags& flags) {
   if (json_on_stdout) {
     std::fwrite(json.data(), 1, json.size(), stdout);
     if (std::fflush(stdout) != 0)
-      throw DesignError("standard output: cannot write the result", DesignError::Kind::io_failure);
+      throw ToolError("standard output: cannot write the result", ToolError::Kind::io_failure);
   } else if (!flags.json.empty()) {
     OutputFile(flags.json, json).commit();
   }

@@ -38,7 +38,7 @@ std::string content_of(const std::string& format, const SessionReport& report) {
 
 void check_format(const std::string& format) {
   if (format == "html" || format == "csv" || format == "json") return;
-  throw DesignError(
+  throw ToolError(
       fmt::format("--format {}: is not in this version; the formats are html, csv and json", format.substr(0, 20)));
 }
 
@@ -47,7 +47,7 @@ void check_output(const ReportOptions& options) {
   for (const char* name : {kResultFile, kVerdictsFile, kJournalFile}) {
     std::error_code error;
     if (std::filesystem::equivalent(options.output, std::filesystem::path(options.session) / name, error)) {
-      throw DesignError(fmt::format("{}: the report would overwrite the session; give another name", options.output));
+      throw ToolError(fmt::format("{}: the report would overwrite the session; give another name", options.output));
     }
   }
 }

@@ -50,7 +50,7 @@ int table_number(std::string text) {
   for (int number = 1; number <= kThesisTables; ++number) {
     if (text == roman(number) || text == std::to_string(number)) return number;
   }
-  throw DesignError(fmt::format("--table {}: there is no such table; give 1 to 16 or I to XVI", text));
+  throw ToolError(fmt::format("--table {}: there is no such table; give 1 to 16 or I to XVI", text));
 }
 
 std::set<int> wanted_tables(const ReproduceFlags& flags) {
@@ -75,7 +75,7 @@ std::filesystem::path default_folder() {
   std::error_code error;
   std::filesystem::path folder = find_upwards(std::filesystem::current_path(error));
   if (folder.empty()) folder = find_upwards(std::filesystem::read_symlink("/proc/self/exe", error).parent_path());
-  if (folder.empty()) throw DesignError("tests/data: is neither here nor above the program; give --data FOLDER");
+  if (folder.empty()) throw ToolError("tests/data: is neither here nor above the program; give --data FOLDER");
   return folder;
 }
 
@@ -83,8 +83,8 @@ std::filesystem::path data_folder(const ReproduceFlags& flags) {
   const std::filesystem::path folder = flags.data.empty() ? default_folder() : std::filesystem::path(flags.data);
   for (const ThesisStudy& study : thesis_studies()) {
     if (std::filesystem::exists(folder / study.data / "case.json")) continue;
-    throw DesignError(fmt::format("{}: has no {}/case.json; give --data the folder tests/data of the bladefit sources",
-                                  folder.string(), study.data));
+    throw ToolError(fmt::format("{}: has no {}/case.json; give --data the folder tests/data of the bladefit sources",
+                                folder.string(), study.data));
   }
   return folder;
 }
@@ -173,7 +173,7 @@ void run_reproduce(const ReproduceFlags& flags) {
   }
   std::fwrite(json.data(), 1, json.size(), stdout);
   if (std::fflush(stdout) != 0) {
-    throw DesignError("standard output: cannot write the figures", DesignError::Kind::io_failure);
+    throw ToolError("standard output: cannot write the figures", ToolError::Kind::io_failure);
   }
 }
 

@@ -97,7 +97,7 @@ void write_copy(const std::string& path, const std::string& json) {
   }
   std::fwrite(json.data(), 1, json.size(), stdout);
   if (std::fflush(stdout) != 0) {
-    throw DesignError("standard output: cannot write the result", DesignError::Kind::io_failure);
+    throw ToolError("standard output: cannot write the result", ToolError::Kind::io_failure);
   }
 }
 
@@ -114,7 +114,7 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
                session.refused.size(), session.refused.front());
   }
   if (session.points.empty()) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("the session in {} has no point that can be used: nothing can be said of the blade; "
                     "check that the machine's program is running",
                     plan.host.session_directory));

@@ -28,7 +28,7 @@ void over(std::optional<Value>& target, const std::optional<Value>& flag) {
 SessionSettings merged_session(const RunFlags& flags) {
   SessionSettings session;
   if (!flags.config.empty()) {
-    if (const ConfigError error = load_session(flags.config, session)) throw DesignError(error.message);
+    if (const ConfigError error = load_session(flags.config, session)) throw ToolError(error.message);
   }
   over(session.design, flags.session.design);
   over(session.source, flags.session.source);
@@ -44,13 +44,13 @@ SourceSettings plan_source(const SessionSettings& session, const std::optional<s
   SourceSettings source;
   source.replay.mm_per_unit = mm_per_unit;
   if (session.device) {
-    if (const ConfigError error = load_device(*session.device, source)) throw DesignError(error.message);
+    if (const ConfigError error = load_device(*session.device, source)) throw ToolError(error.message);
   }
   if (session.source) {
-    if (const std::string error = apply_source_uri(*session.source, source); !error.empty()) throw DesignError(error);
+    if (const std::string error = apply_source_uri(*session.source, source); !error.empty()) throw ToolError(error);
   }
   if (source.kind == SourceKind::none) {
-    throw DesignError(
+    throw ToolError(
         "no source is given; name one with --source, for example modbus-tcp://192.168.0.10:502, or in the "
         "session file");
   }
@@ -65,7 +65,7 @@ PanelServerSettings plan_panel(const PanelSettings& file, const std::string& fla
   if (file.commands) panel.commands = *file.commands;
   if (file.allow) panel.allow = *file.allow;
   if (!flag.empty() && !parse_address(flag, panel.host, panel.port)) {
-    throw DesignError(fmt::format("--panel {}: is no address; use HOST:PORT, for example 127.0.0.1:1503", flag));
+    throw ToolError(fmt::format("--panel {}: is no address; use HOST:PORT, for example 127.0.0.1:1503", flag));
   }
   return panel;
 }
@@ -76,7 +76,7 @@ std::string fresh_session_name() { return fmt::format("session-{:%Y%m%d-%H%M%S}"
 std::chrono::milliseconds idle_of(const SessionSettings& session) {
   const double seconds = session.until_idle.value_or(0);
   if (session.until_idle && (!(seconds > 0) || seconds > kLongestIdle_s)) {
-    throw DesignError(fmt::format("--until-idle {}: give seconds above 0", seconds));
+    throw ToolError(fmt::format("--until-idle {}: give seconds above 0", seconds));
   }
   return std::chrono::milliseconds(std::llround(seconds * kMillisecondsPerSecond));
 }
@@ -104,12 +104,12 @@ void check_outputs(const RunFlags& flags, const SessionSettings& session, const 
 RunPlan plan_run(const RunFlags& flags) {
   const SessionSettings session = merged_session(flags);
   if (!session.design) {
-    throw DesignError("no design is given; name it with --design, or in the session file with --config");
+    throw ToolError("no design is given; name it with --design, or in the session file with --config");
   }
   RunPlan plan;
   plan.design = load_design(*session.design, outward_of(session.fit));
   if (const Status status = DesignImage::open(plan.design.image, plan.image); status != Status::ok) {
-    throw DesignError(fmt::format("{}: {}", *session.design, status_text(status)));
+    throw ToolError(fmt::format("{}: {}", *session.design, status_text(status)));
   }
   plan.fit = plan_fit(session.fit, plan.image);
   if (session.capacity) plan.fit.localizer.capacity = *session.capacity;

@@ -9,12 +9,15 @@
 #include <string>
 
 #include "config/fit_settings.hpp"
+#include "core/geometry/surface/design_image.hpp"
 #include "drivers/text/csv_text.hpp"
 #include "drivers/text/text_number.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/design/nurbs/surface_samples.hpp"
 #include "tools/files/output_file.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -50,7 +53,7 @@ A check of a fit from end to end, which must find the pose -0.5,0.3,0.2,0.01,-0.
 Exit codes: 0 done, 2 wrong use or bad design, 3 a file cannot be read or written.)";
 
 [[noreturn]] void fail(const char* option, const std::string& text, const std::string& mend) {
-  throw DesignError(fmt::format("{} {}: {}", option, text, mend));
+  throw ToolError(fmt::format("{} {}: {}", option, text, mend));
 }
 
 void parse_grid(const SampleFlags& flags, SamplePlan& plan) {
@@ -123,7 +126,7 @@ SamplePlan plan_samples(const SampleFlags& flags, const DesignImage& design) {
   plan.lines_along_v = flags.along == "v";
   plan.offset_mm = mm * flags.offset;
   plan.noise_mm = mm * flags.noise;
-  if (!flags.pose.empty() && !flags.move.empty()) throw DesignError("--pose and --move: give one of them, not both");
+  if (!flags.pose.empty() && !flags.move.empty()) throw ToolError("--pose and --move: give one of them, not both");
   if (!flags.pose.empty()) plan.pose = inverse(parse_pose("--pose", flags.pose, mm));
   if (!flags.move.empty()) plan.pose = parse_pose("--move", flags.move, mm);
   check_plan(flags, plan, design);
@@ -150,7 +153,7 @@ void run_sample(const SampleFlags& flags) {
   const LoadedDesign loaded = load_design(flags.design, either && !stored ? OutwardOption::plus : asked);
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok) {
-    throw DesignError(fmt::format("{}: {}", flags.design, status_text(status)));
+    throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));
   }
   const SamplePlan plan = plan_samples(flags, design);
   const std::vector<ProbePoint> points = sample_surface(design, plan);

@@ -6,8 +6,11 @@
 #include <string>
 
 #include "core/geometry/surface/design_image.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
+#include "tools/design/read_design.hpp"
 #include "tools/files/output_file.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 #include "tools/simulate/simulator.hpp"
 
 namespace bladefit {
@@ -75,11 +78,11 @@ DesignUnit design_unit(const std::string& path) {
   const LoadedDesign design = load_design(path, OutwardOption::automatic);
   DesignImage image;
   const Status status = DesignImage::open(design.image, image);
-  if (!succeeded(status)) throw DesignError(fmt::format("{}: {}", path, status_text(status)));
+  if (!succeeded(status)) throw ToolError(fmt::format("{}: {}", path, status_text(status)));
   return static_cast<DesignUnit>(image.header().design_unit);
 }
 
-/// Millimetres in a unit of the points file. Throws DesignError for a design that cannot be read.
+/// Millimetres in a unit of the points file. Throws ToolError for a design that cannot be read.
 double mm_per_unit_of(const SimulateFlags& flags) {
   if (flags.units == "in") return kMmPerInch;
   if (flags.units == "mm" || flags.design.empty()) return 1;

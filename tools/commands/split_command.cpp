@@ -6,13 +6,16 @@
 #include <memory>
 #include <string>
 
+#include "core/geometry/surface/design_image.hpp"
 #include "drivers/replay/points_csv.hpp"
 #include "drivers/text/text_number.hpp"
-#include "tools/design/design_file.hpp"
 #include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/design/nurbs/patch_points.hpp"
+#include "tools/design/read_design.hpp"
 #include "tools/files/output_file.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -45,7 +48,7 @@ Exit codes: 0 done, 2 wrong use or bad design, 3 a file cannot be read or writte
 
 /// Adds `[PATCH:]u:0.33` to the cuts of its patch.
 void add_cut(const std::string& text, std::vector<PatchCuts>& cuts) {
-  const auto wrong = [&](const std::string& what) { throw DesignError(fmt::format("--at {}: {}", text, what)); };
+  const auto wrong = [&](const std::string& what) { throw ToolError(fmt::format("--at {}: {}", text, what)); };
   std::size_t place = text.find_first_of("uv");
   std::size_t patch = 0;
   if (place == std::string::npos || place + 1 >= text.size() || text[place + 1] != ':') {
@@ -76,8 +79,7 @@ std::vector<PatchCuts> parse_cuts(const std::vector<std::string>& texts, std::si
       double before = 0;
       for (const double at : *along) {
         if (at - before < kNarrowest || 1 - at < kNarrowest) {
-          throw DesignError(
-              fmt::format("--at {}: leaves a patch narrower than {}; leave this cut out", at, kNarrowest));
+          throw ToolError(fmt::format("--at {}: leaves a patch narrower than {}; leave this cut out", at, kNarrowest));
         }
         before = at;
       }
@@ -102,7 +104,7 @@ std::vector<PatchWindow> inside_buffer(std::vector<PatchWindow> parts, double bu
     ParameterRectangle& limits = part.limits;
     limits = {limits.u_min + buffer, limits.u_max - buffer, limits.v_min + buffer, limits.v_max - buffer};
     if (limits.u_min < limits.u_max && limits.v_min < limits.v_max) continue;
-    throw DesignError(fmt::format("--buffer {}: leaves nothing of a patch; give a smaller one", buffer));
+    throw ToolError(fmt::format("--buffer {}: leaves nothing of a patch; give a smaller one", buffer));
   }
   return parts;
 }
@@ -115,32 +117,32 @@ struct UsedRows {
 
 UsedRows find_used_rows(const SplitFlags& flags, DesignUnit unit, const std::vector<PatchWindow>& windows) {
   const PointsFile file = read_points_csv(flags.points, mm_per_unit(unit));
-  if (!file.error.empty()) throw DesignError(file.error);
+  if (!file.error.empty()) throw ToolError(file.error);
   // Without directions the side of the material plays no part, so that a design that does not tell it will do.
   const OutwardOption outward = parse_outward(flags.outward);
   const bool either = outward == OutwardOption::automatic && !file.has_approach;
   const LoadedDesign loaded = load_design(flags.design, either ? OutwardOption::plus : outward);
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok) {
-    throw DesignError(fmt::format("{}: {}", flags.design, status_text(status)));
+    throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));
   }
   UsedRows used{points_inside(design, file.points, windows), file.points.size()};
   if (!used.rows.empty()) return used;
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: no foot lies inside the buffer; check units and coordinates of the points", flags.points));
 }
 
 void check_flags(const SplitFlags& flags) {
-  if (!(flags.buffer >= 0)) throw DesignError(fmt::format("--buffer {}: give a number from 0 on", flags.buffer));
+  if (!(flags.buffer >= 0)) throw ToolError(fmt::format("--buffer {}: give a number from 0 on", flags.buffer));
   if (flags.points.empty() != flags.subset.empty()) {
-    throw DesignError("--points and --subset belong together: rows of the one are written to the other");
+    throw ToolError("--points and --subset belong together: rows of the one are written to the other");
   }
   for (const std::string& output : {flags.output, flags.subset}) {
     refuse_overwriting(output, "design", flags.design);
     refuse_overwriting(output, "points", flags.points);
   }
   if (same_file(flags.output, flags.subset)) {
-    throw DesignError(fmt::format("{}: is both -o and --subset; give two names", flags.output));
+    throw ToolError(fmt::format("{}: is both -o and --subset; give two names", flags.output));
   }
 }
 

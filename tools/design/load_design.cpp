@@ -1,11 +1,16 @@
+#include "tools/design/load_design.hpp"
+
 #include <fmt/format.h>
 
 #include <span>
 
-#include "tools/design/design_file.hpp"
+#include "core/geometry/surface/design_image.hpp"
 #include "tools/design/image/image_writer.hpp"
 #include "tools/design/nurbs/outward_side.hpp"
 #include "tools/design/occ/face_trim.hpp"
+#include "tools/design/read_design.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -22,7 +27,7 @@ LoadedDesign load_image(const std::filesystem::path& path, OutwardOption outward
   design.image.assign(content.begin(), content.end());
   DesignImage view;
   if (const Status status = DesignImage::open(design.image, view); status != Status::ok) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: not a usable design image: {}", path.string(),
                     design.image.empty() ? "the file is empty: compile the design again" : status_text(status)));
   }
@@ -49,7 +54,7 @@ OutwardOption parse_outward(std::string_view text) {
   if (text == "auto") return OutwardOption::automatic;
   if (text == "+") return OutwardOption::plus;
   if (text == "-") return OutwardOption::minus;
-  throw DesignError(fmt::format("--outward {}: unknown side; say +, - or auto", text));
+  throw ToolError(fmt::format("--outward {}: unknown side; say +, - or auto", text));
 }
 
 LoadedDesign load_design(const std::filesystem::path& path, OutwardOption outward) {

@@ -19,7 +19,7 @@ std::filesystem::path resolve(const std::filesystem::path& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return path;
   if (!std::filesystem::is_regular_file(status)) {
-    throw DesignError(fmt::format("{}: is not a regular file; give another output name", path.string()));
+    throw ToolError(fmt::format("{}: is not a regular file; give another output name", path.string()));
   }
   return std::filesystem::canonical(path);
 }
@@ -34,9 +34,9 @@ std::filesystem::path place_of(const std::filesystem::path& path) {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw DesignError(fmt::format("{}: cannot be written: {}; check folder, permissions and free space", path.string(),
-                                std::generic_category().message(error)),
-                    DesignError::Kind::io_failure);
+  throw ToolError(fmt::format("{}: cannot be written: {}; check folder, permissions and free space", path.string(),
+                              std::generic_category().message(error)),
+                  ToolError::Kind::io_failure);
 }
 
 /// Writes and syncs all of `content`; returns 0 or the error of the operating system.
@@ -80,7 +80,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 void refuse_overwriting(const std::filesystem::path& output, std::string_view what,
                         const std::filesystem::path& input) {
   if (!same_file(output, input)) return;
-  throw DesignError(fmt::format("{}: the output would overwrite the {}; give another name", input.string(), what));
+  throw ToolError(fmt::format("{}: the output would overwrite the {}; give another name", input.string(), what));
 }
 
 }  // namespace bladefit

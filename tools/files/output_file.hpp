@@ -8,14 +8,14 @@ namespace bladefit {
 /// moved in place by commit(). Without commit() nothing is left behind.
 class OutputFile {
  public:
-  /// Writes `content`. Throws DesignError (io_failure) where that fails, and bad_input where `path` is something else
+  /// Writes `content`. Throws ToolError (io_failure) where that fails, and bad_input where `path` is something else
   /// than a regular file or a new name.
   OutputFile(const std::filesystem::path& path, std::string_view content);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Moves the content in place of what stood there. Throws DesignError (io_failure).
+  /// Moves the content in place of what stood there. Throws ToolError (io_failure).
   void commit();
 
  private:
@@ -26,7 +26,7 @@ class OutputFile {
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Refuses an output that would take the place of an input; `what` says what that one is. Empty names are no place.
-/// Throws DesignError (bad_input).
+/// Throws ToolError (bad_input).
 void refuse_overwriting(const std::filesystem::path& output, std::string_view what, const std::filesystem::path& input);
 
 }  // namespace bladefit

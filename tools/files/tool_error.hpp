@@ -8,14 +8,14 @@ namespace bladefit {
 
 /// Why a design could not be read, compiled or written. what() is one line that names the file, the entity, line or
 /// field, and the mend.
-class DesignError : public std::runtime_error {
+class ToolError : public std::runtime_error {
  public:
   enum class Kind {
     bad_input,   ///< wrong use or wrong content
     io_failure,  ///< the operating system refused to read or write
   };
 
-  explicit DesignError(const std::string& message, Kind kind = Kind::bad_input)
+  explicit ToolError(const std::string& message, Kind kind = Kind::bad_input)
       : std::runtime_error(message), kind_(kind) {}
 
   [[nodiscard]] Kind kind() const { return kind_; }

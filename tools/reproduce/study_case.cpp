@@ -6,6 +6,9 @@
 
 #include "drivers/replay/points_csv.hpp"
 #include "tools/design/image/image_writer.hpp"
+#include "tools/design/read_design.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -26,7 +29,7 @@ FitPlan plan_of(const Json& json, const std::string& file) {
   FitPlan plan;
   plan.units = json.at("units");
   if (plan.units != "mm" && plan.units != "in") {
-    throw DesignError(fmt::format("{}: units: {} is neither mm nor in; give one of them", file, plan.units));
+    throw ToolError(fmt::format("{}: units: {} is neither mm nor in; give one of them", file, plan.units));
   }
   plan.mm_per_unit = plan.units == "in" ? kMmPerInch : 1.0;
   plan.localizer.regions = RegionPolicy::fixed;
@@ -35,8 +38,7 @@ FitPlan plan_of(const Json& json, const std::string& file) {
   ToleranceMap& map = plan.localizer.tolerance;
   for (const Json& box : json.at("leading_edge").at("boxes")) {
     if (map.box_count == ToleranceMap::kMaxBoxes) {
-      throw DesignError(
-          fmt::format("{}: leading_edge.boxes: at most {} are possible; give fewer", file, map.box_count));
+      throw ToolError(fmt::format("{}: leading_edge.boxes: at most {} are possible; give fewer", file, map.box_count));
     }
     map.boxes[map.box_count++] = box_of(box);
   }
@@ -48,7 +50,7 @@ void take_design(StudyCase& study, const std::filesystem::path& path) {
   study.loaded.image = write_image(file.surfaces, file.unit, study.outward);
   study.surfaces = std::move(file.surfaces);
   if (const Status status = DesignImage::open(study.loaded.image, study.design); status != Status::ok) {
-    throw DesignError(fmt::format("{}: {}; take another design", path.string(), status_text(status)));
+    throw ToolError(fmt::format("{}: {}; take another design", path.string(), status_text(status)));
   }
 }
 
@@ -67,7 +69,7 @@ StudyCase read_study_case(const std::filesystem::path& folder) {
     }
     take_design(study, folder / json.at("design").at("iges").get<std::string>());
   } catch (const Json::exception& error) {
-    throw DesignError(fmt::format("{}: {}; take the file as it came with the data", file, error.what()));
+    throw ToolError(fmt::format("{}: {}; take the file as it came with the data", file, error.what()));
   }
   return study;
 }
@@ -75,10 +77,10 @@ StudyCase read_study_case(const std::filesystem::path& folder) {
 std::vector<ProbePoint> read_subset_points(const StudyCase& study, const std::string& subset) {
   const auto found = study.points.find(subset);
   if (found == study.points.end()) {
-    throw DesignError(fmt::format("{}: case.json names no subset {}; take the data as it came", study.name, subset));
+    throw ToolError(fmt::format("{}: case.json names no subset {}; take the data as it came", study.name, subset));
   }
   PointsFile file = read_points_csv(found->second.string(), study.plan.mm_per_unit);
-  if (!file.error.empty()) throw DesignError(file.error);
+  if (!file.error.empty()) throw ToolError(file.error);
   return std::move(file.points);
 }
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "tools/batch/fit_options.hpp"
+#include "tools/design/load_design.hpp"
+#include "tools/design/nurbs/nurbs_surface.hpp"
 
 namespace bladefit {
 
@@ -19,10 +21,10 @@ struct StudyCase {
   std::map<std::string, std::filesystem::path> points;  ///< of each subset
 };
 
-/// Reads case.json and the design in `folder`. Throws DesignError, one line that names the file and the mend.
+/// Reads case.json and the design in `folder`. Throws ToolError, one line that names the file and the mend.
 [[nodiscard]] StudyCase read_study_case(const std::filesystem::path& folder);
 
-/// The points of a subset [mm]. Throws DesignError as read_study_case().
+/// The points of a subset [mm]. Throws ToolError as read_study_case().
 [[nodiscard]] std::vector<ProbePoint> read_subset_points(const StudyCase& study, const std::string& subset);
 
 }  // namespace bladefit

@@ -16,7 +16,7 @@ struct SubsetRuns {
   double epsilon_mm = 0;              ///< 1.1 times it, rounded to six digits in the units of the case
 };
 
-/// Fits the subset by least squares and, where asked, within tolerances. Throws DesignError where points are missing.
+/// Fits the subset by least squares and, where asked, within tolerances. Throws ToolError where points are missing.
 /// Cost: some milliseconds to some hundred, by the number of points.
 [[nodiscard]] SubsetRuns run_subset(const StudyCase& study, const std::string& subset, bool constrained);
 

@@ -65,7 +65,7 @@ void add_validity_checks(const StudyCase& study, const std::string& subset, Repo
   const std::vector<std::byte> image = moved_image(study, inverse(motion));
   DesignImage moved;
   if (const Status status = DesignImage::open(image, moved); status != Status::ok) {
-    throw DesignError(fmt::format("{}: the moved design: {}", study.name, status_text(status)));
+    throw ToolError(fmt::format("{}: the moved design: {}", study.name, status_text(status)));
   }
   const std::string label = fmt::format("{} {}", study.name, subset);
   const FitResult zero = fit_points(moved, study.plan, points, subset);

@@ -69,7 +69,7 @@ class Field {
 
  private:
   [[noreturn]] void fail(const std::string& name, const std::string& what) const {
-    throw DesignError(fmt::format("{}: field {} {}; {}", file_, name.empty() ? "(whole file)" : name, what, kMend));
+    throw ToolError(fmt::format("{}: field {} {}; {}", file_, name.empty() ? "(whole file)" : name, what, kMend));
   }
 
   const Json& value_;
@@ -83,7 +83,7 @@ Json parse(const std::string& path, const std::string& text) {
   } catch (const Json::parse_error& error) {
     const std::size_t end = std::min(error.byte, text.size());
     const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    throw DesignError(fmt::format("{}:{}: is no JSON text; {}", path, lines + 1, kMend));
+    throw ToolError(fmt::format("{}:{}: is no JSON text; {}", path, lines + 1, kMend));
   }
 }
 

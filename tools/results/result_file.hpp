@@ -19,7 +19,7 @@ struct ResultContent {
   std::vector<ResultPoint> points;
 };
 
-/// Reads the text of a result.json; `path` names it in errors. Throws DesignError (bad_input) that names the line or
+/// Reads the text of a result.json; `path` names it in errors. Throws ToolError (bad_input) that names the line or
 /// the field and the mend.
 [[nodiscard]] ResultContent parse_result(const std::string& path, const std::string& text);
 

@@ -22,16 +22,16 @@ constexpr std::size_t kMaxFileSize = std::size_t{1} << 30U;
 void check_directory(const std::string& directory) {
   std::error_code error;
   if (fs::is_directory(directory, error)) return;
-  throw DesignError(fmt::format("{}: {}; give the folder that `bladefit run --session` wrote", directory,
-                                fs::exists(directory, error) ? "is not a folder" : "there is no such folder"));
+  throw ToolError(fmt::format("{}: {}; give the folder that `bladefit run --session` wrote", directory,
+                              fs::exists(directory, error) ? "is not a folder" : "there is no such folder"));
 }
 
 JournalContent read_recording(const fs::path& folder) {
   JournalContent journal;
-  if (const HostError error = read_journal(folder / kJournalFile, journal)) throw DesignError(error.message);
+  if (const HostError error = read_journal(folder / kJournalFile, journal)) throw ToolError(error.message);
   if (journal.exists) return journal;
-  throw DesignError(fmt::format("{}: holds no {} of a session; give the folder that `bladefit run --session` wrote",
-                                folder.string(), kJournalFile));
+  throw ToolError(fmt::format("{}: holds no {} of a session; give the folder that `bladefit run --session` wrote",
+                              folder.string(), kJournalFile));
 }
 
 bool is_finite(const std::array<double, 3>& numbers) {
@@ -47,14 +47,14 @@ std::string read_part(const fs::path& folder, const char* name, const JournalCon
   const fs::path path = folder / name;
   if (std::error_code error; !fs::exists(path, error)) {
     const auto points = std::count_if(journal.events.begin(), journal.events.end(), is_usable);
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: is missing: the session still runs or was cut off ({} points are recorded); wait for its end, "
                     "or run it again with the same --session",
                     path.string(), points));
   }
   std::string text;
   if (const std::string reason = read_file(path, kMaxFileSize, text); !reason.empty()) {
-    throw DesignError(fmt::format("{}: cannot be read ({}); check the rights of the file", path.string(), reason));
+    throw ToolError(fmt::format("{}: cannot be read ({}); check the rights of the file", path.string(), reason));
   }
   return text;
 }
@@ -65,7 +65,7 @@ void check_same_run(const std::string& directory, const std::vector<ResultPoint>
       result.begin(), result.end(), points.begin(), points.end(),
       [](const ResultPoint& a, const ReportPoint& b) { return a.index + 1 == b.sequence && a.state == b.state; });
   if (same) return;
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: {} ({} points) and {} ({} points) are not of one run; run the session again with the same "
                   "--session",
                   directory, kResultFile, result.size(), kVerdictsFile, points.size()));
@@ -86,7 +86,7 @@ void check_up_to_date(const std::string& directory, const JournalContent& journa
   const std::uint32_t recorded = newest_point(journal);
   const std::uint32_t judged = points.empty() ? 0 : points.back().sequence;
   if (recorded == judged) return;
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: {} ends with point {}, the recording with point {}: the session was resumed and still runs or "
                   "was cut off; wait for its end, or run it again with the same --session",
                   directory, kResultFile, judged, recorded));

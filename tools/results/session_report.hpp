@@ -61,7 +61,7 @@ struct SessionReport {
 };
 
 /// Reads result.json and verdicts.csv of a session folder and checks that they are whole, belong together and tell of
-/// every point in the journal. Throws DesignError (bad_input) that names the file and the mend, also where the session
+/// every point in the journal. Throws ToolError (bad_input) that names the file and the mend, also where the session
 /// still runs or was cut off.
 [[nodiscard]] SessionReport read_session(const std::string& directory);
 

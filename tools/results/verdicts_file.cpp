@@ -27,7 +27,7 @@ struct Row {
   std::array<std::string_view, kColumns.size()> cells{};
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw DesignError(fmt::format("{}:{}: {}; {}", path, line, what, kMend));
+    throw ToolError(fmt::format("{}:{}: {}; {}", path, line, what, kMend));
   }
 
   [[noreturn]] void refuse_cell(std::size_t column, const char* wanted) const {

@@ -31,8 +31,4 @@ class BoxDistances {
   double rounding_;                ///< of the distances [mm]
 };
 
-/// The tree is in depth-first order and no deeper than kMaxTreeDepth, its boxes are nested, and every leaf stands in it
-/// once, inside its box. For an image whose other arrays are valid. Cost: linear in the size.
-[[nodiscard]] bool tree_valid(const DesignImage& image);
-
 }  // namespace bladefit

@@ -6,8 +6,8 @@
 #include <cstring>
 
 #include "core/crc32.hpp"
-#include "core/geometry/nearest/bounding_tree.hpp"
 #include "core/geometry/surface/taylor.hpp"
+#include "core/geometry/surface/tree_check.hpp"
 
 namespace bladefit {
 namespace {

@@ -1,10 +1,9 @@
 #pragma once
-#include <Eigen/Core>
 #include <cstdint>
 
-namespace bladefit {
+#include "core/algebra/matrix.hpp"
 
-using Vec3 = Eigen::Matrix<double, 3, 1, Eigen::DontAlign>;
+namespace bladefit {
 
 enum class FootKind : std::uint8_t { interior = 0, edge = 1, corner = 2 };
 

@@ -12,11 +12,12 @@
 #include <thread>
 #include <vector>
 
+#include "core/geometry/surface/design_image.hpp"
 #include "core/localizer.hpp"
 #include "drivers/replay/points_csv.hpp"
 #include "drivers/source/probe_source.hpp"
 #include "firmware_bridge/host/host.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
 
 namespace bladefit::testing {
 

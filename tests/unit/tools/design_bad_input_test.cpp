@@ -7,7 +7,9 @@
 
 #include "tests/unit/tools/design_file_writing.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
+#include "tools/design/read_design.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -26,7 +28,7 @@ std::string message_of(const std::string& name, const std::string& content) {
   const auto path = folder.write(name, content);
   try {
     read_design(path);
-  } catch (const DesignError& error) {
+  } catch (const ToolError& error) {
     const std::string message = error.what();
     EXPECT_EQ(message.rfind(path.string() + ":", 0), 0U) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -192,11 +194,11 @@ TEST(DesignBadInput, ForeignFiles) {
 }
 
 TEST(DesignBadInput, MissingFileAndFolder) {
-  EXPECT_THROW(read_design("/nonexistent/a.igs"), DesignError);
-  EXPECT_THROW(load_design("/nonexistent/a.bfd", OutwardOption::plus), DesignError);
+  EXPECT_THROW(read_design("/nonexistent/a.igs"), ToolError);
+  EXPECT_THROW(load_design("/nonexistent/a.bfd", OutwardOption::plus), ToolError);
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "a.stp");
-  EXPECT_THROW(read_design(folder.path() / "a.stp"), DesignError);
+  EXPECT_THROW(read_design(folder.path() / "a.stp"), ToolError);
 }
 
 TEST(DesignBadInput, DamagedImages) {
@@ -204,7 +206,7 @@ TEST(DesignBadInput, DamagedImages) {
   const auto message = [&](const std::string& content) {
     try {
       load_design(folder.write("a.bfd", content), OutwardOption::plus);
-    } catch (const DesignError& error) {
+    } catch (const ToolError& error) {
       return std::string(error.what());
     }
     return std::string("accepted");

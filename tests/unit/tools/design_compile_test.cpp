@@ -6,8 +6,8 @@
 #include "tests/unit/tools/design_file_writing.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
 #include "tests/unit/tools/design_image_reading.hpp"
-#include "tools/design/design_file.hpp"
 #include "tools/design/image/c_array.hpp"
+#include "tools/design/load_design.hpp"
 #include "tools/files/output_file.hpp"
 
 namespace bladefit {

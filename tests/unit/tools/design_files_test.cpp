@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/geometry/surface/design_image.hpp"
 #include "tests/unit/tools/design_file_writing.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
 #include "tests/unit/tools/design_image_reading.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
+#include "tools/design/read_design.hpp"
 
 namespace bladefit {
 namespace {

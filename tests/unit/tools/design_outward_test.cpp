@@ -6,8 +6,9 @@
 
 #include "tests/unit/tools/design_file_writing.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/outward_side.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -53,7 +54,7 @@ int side_of(const std::vector<NurbsSurface>& surfaces) { return find_outward_sid
 std::string refusal_of(const std::vector<NurbsSurface>& surfaces) {
   try {
     side_of(surfaces);
-  } catch (const DesignError& error) {
+  } catch (const ToolError& error) {
     return error.what();
   }
   return "accepted";
@@ -96,12 +97,12 @@ TEST(DesignOutward, PatchesThatContradictEachOtherAreRefused) {
 TEST(DesignOutward, TheSideAskedForIsTaken) {
   const testing::TemporaryFolder folder;
   const auto path = folder.write("a.igs", testing::iges_file({testing::iges_surface(sheet(blade(0, 0.5, 0.1)))}));
-  EXPECT_THROW(load_design(path, OutwardOption::automatic), DesignError);
+  EXPECT_THROW(load_design(path, OutwardOption::automatic), ToolError);
   EXPECT_NO_THROW(load_design(path, OutwardOption::minus));
   EXPECT_EQ(parse_outward("+"), OutwardOption::plus);
   EXPECT_EQ(parse_outward("-"), OutwardOption::minus);
   EXPECT_EQ(parse_outward("auto"), OutwardOption::automatic);
-  EXPECT_THROW(parse_outward("out"), DesignError);
+  EXPECT_THROW(parse_outward("out"), ToolError);
 }
 
 }  // namespace

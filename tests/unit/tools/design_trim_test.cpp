@@ -18,7 +18,7 @@
 
 #include "tests/support/process.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/design/load_design.hpp"
 #include "tools/design/occ/cad_session.hpp"
 
 namespace bladefit {

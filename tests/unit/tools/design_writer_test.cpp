@@ -9,9 +9,10 @@
 #include <filesystem>
 
 #include "tests/unit/tools/design_fixtures.hpp"
-#include "tools/design/design_file.hpp"
 #include "tools/design/iges/iges_writer.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
+#include "tools/design/read_design.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -133,10 +134,10 @@ TEST(DesignWriter, RealsHaveAPointAndTheirExponentIsD) {
 TEST(DesignWriter, LeavesNoPartOfAFileBehind) {
   const NurbsSurface surface = random_surface({}, {}, true, 5);
   const TemporaryFolder folder;
-  EXPECT_THROW(write_iges_design(folder.path() / "a.stp", {surface}, DesignUnit::mm), DesignError);
+  EXPECT_THROW(write_iges_design(folder.path() / "a.stp", {surface}, DesignUnit::mm), ToolError);
   std::filesystem::create_directory(folder.path() / "taken.igs");
-  EXPECT_THROW(write_iges_design(folder.path() / "taken.igs", {surface}, DesignUnit::mm), DesignError);
-  EXPECT_THROW(write_iges_design(folder.path() / "nowhere" / "a.igs", {surface}, DesignUnit::mm), DesignError);
+  EXPECT_THROW(write_iges_design(folder.path() / "taken.igs", {surface}, DesignUnit::mm), ToolError);
+  EXPECT_THROW(write_iges_design(folder.path() / "nowhere" / "a.igs", {surface}, DesignUnit::mm), ToolError);
   const auto entries = std::filesystem::directory_iterator(folder.path());
   EXPECT_EQ(std::distance(begin(entries), end(entries)), 1);
 }

@@ -38,7 +38,7 @@ class SectionsRefused : public ::testing::TestWithParam<BadSections> {};
 std::string message_of(const std::function<void()>& call) {
   try {
     call();
-  } catch (const DesignError& error) {
+  } catch (const ToolError& error) {
     EXPECT_EQ(error.exit_code(), 2);
     const std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;

@@ -109,13 +109,13 @@ LengthUnit read_unit(const std::string& flag_text, const std::string& name, Iges
   const std::optional<LengthUnit> named = unit_named(name);
   if (flag == kNamedUnitFlag && named) return *named;
   if (flag == kNamedUnitFlag) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: global section: unknown unit name \"{}\" in field 15; export the design in mm "
                     "or inches",
                     file, name));
   }
   if (!number || flag < 1 || flag > static_cast<int>(kUnits.size())) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: global section: unknown unit flag \"{}\" in field 14; export the design in mm "
                     "or inches",
                     file, flag_text));
@@ -132,7 +132,7 @@ double read_scale(const std::string& text, const std::string& file) {
   if (text.empty()) return 1.0;
   const std::optional<double> scale = parse_iges_real(text);
   if (scale && *scale > 0) return *scale;
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: global section: model space scale \"{}\" in field 13 is not a number above 0; "
                   "export the design at scale 1",
                   file, text));

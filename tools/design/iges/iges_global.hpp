@@ -17,7 +17,7 @@ struct IgesGlobal {
   std::vector<std::string> warnings;
 };
 
-/// Reads the records of the global section (72 columns each). Throws DesignError naming the field where the unit is
+/// Reads the records of the global section (72 columns each). Throws ToolError naming the field where the unit is
 /// unknown or the scale is not above 0.
 IgesGlobal read_iges_global(const std::vector<std::string_view>& records, const std::string& file);
 

@@ -61,7 +61,7 @@ int IgesParameters::integer(std::size_t index, const char* name, int lowest, int
 }
 
 void IgesParameters::fail(const std::string& what) const {
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: entity {} at D{}: {}; export the design again", file_, type_, directory_number_, what));
 }
 

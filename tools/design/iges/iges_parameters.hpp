@@ -16,7 +16,7 @@ struct IgesDelimiters {
 /// A number of IGES, whose exponent letter may be E or D. Nothing where `text` is not a finite number.
 std::optional<double> parse_iges_real(std::string text);
 
-/// The parameters of an entity that has only numbers, read one by one. Every error is a DesignError that names file,
+/// The parameters of an entity that has only numbers, read one by one. Every error is a ToolError that names file,
 /// entity, parameter and line.
 class IgesParameters {
  public:

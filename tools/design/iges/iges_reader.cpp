@@ -10,6 +10,8 @@
 #include "tools/design/iges/iges_text.hpp"
 #include "tools/design/occ/cad_session.hpp"
 #include "tools/design/occ/face_trim.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -34,14 +36,14 @@ void check_types(const IgesText& text, DesignFile& design, const std::string& fi
   std::map<int, int> counts;
   for (const IgesEntity& entity : text.entities) ++counts[entity.type];
   if (counts.count(kIgesSurfaceType) == 0) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: no B-spline surface (entity 128) in the file; entity types there: {}; export the "
                     "blade as B-spline surfaces",
                     file, list_types(counts)));
   }
   for (const int type : kInstanceTypes) {
     if (counts.count(type) == 0) continue;
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: entity {} places copies of other entities, which is not supported; export the "
                     "blade alone, without instances",
                     file, type));
@@ -61,7 +63,7 @@ Eigen::Affine3d read_motion(const IgesText& text, const IgesEntity& entity, cons
     const std::size_t place = static_cast<std::size_t>(number) / 2;
     const bool exists = number > 0 && number % 2 == 1 && place < text.entities.size();
     if (!exists || text.entities[place].type != kIgesMatrixType || count == kMaxMatrices) {
-      throw DesignError(
+      throw ToolError(
           fmt::format("{}: entity 128 at D{}: its transformation matrix D{} is not an entity 124; export "
                       "the design again",
                       file, entity.directory_number, number));

@@ -21,11 +21,11 @@ void iges_order(const NurbsSurface& surface, Visit visit) {
 }
 
 /// Entity 128 (rational B-spline surface, IGES 5.3, section 4.24) as it stands, in the units of the file. Throws
-/// DesignError for parameters that are missing, too few for the counts, or not numbers. The weights are those of the
+/// ToolError for parameters that are missing, too few for the counts, or not numbers. The weights are those of the
 /// file whatever its "polynomial" flag says. The surface is not otherwise checked.
 NurbsSurface read_iges_surface(const IgesParameters& parameters);
 
-/// Entity 124 (transformation matrix, section 4.21) as it stands. Throws DesignError like read_iges_surface.
+/// Entity 124 (transformation matrix, section 4.21) as it stands. Throws ToolError like read_iges_surface.
 Eigen::Affine3d read_iges_matrix(const IgesParameters& parameters);
 
 }  // namespace bladefit

@@ -54,14 +54,14 @@ struct Sections {
 
   [[nodiscard]] const Section& of(char letter) const { return parts[kSections.find(letter)]; }
   [[noreturn]] void fail(std::size_t line, const std::string& what) const {
-    throw DesignError(fmt::format("{}: line {}: {}; export the design again", file, line, what));
+    throw ToolError(fmt::format("{}: line {}: {}; export the design again", file, line, what));
   }
 };
 
 void check_record(const Sections& sections, std::string_view line, std::size_t number) {
   const bool lettered = line.size() > kSectionColumn && kSections.find(line[kSectionColumn]) != std::string_view::npos;
   if (number == 1 && !lettered) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: not an IGES file: line 1 has no section letter in column 73; give an IGES (.igs, "
                     ".iges) or STEP (.stp, .step) file",
                     sections.file));
@@ -137,12 +137,12 @@ void read_entity(const Sections& sections, std::size_t entry, IgesEntity& entity
 int iges_integer(std::string_view field, const std::string& file, std::size_t line) {
   if (trimmed(field).empty()) return 0;
   if (const std::optional<int> value = parse_integer(field)) return *value;
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: line {}: \"{}\" is not a whole number; export the design again", file, line, trimmed(field)));
 }
 
 IgesText split_iges_text(std::string_view text, const std::string& file) {
-  if (trimmed(text).empty()) throw DesignError(fmt::format("{}: the file is empty; export the design again", file));
+  if (trimmed(text).empty()) throw ToolError(fmt::format("{}: the file is empty; export the design again", file));
   const std::vector<std::string_view> lines = split_lines(text);
   const Sections sections = split_sections(lines, file);
   check_terminate(sections, lines.size());

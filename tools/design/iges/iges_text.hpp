@@ -25,10 +25,10 @@ struct IgesText {
 
 /// Takes the text of an IGES file apart after checking its frame: records of 80 columns numbered without gap, the
 /// sections S, G, D, P and T with the counts of the T record, and directory entries that point to existing parameter
-/// records. Throws DesignError naming the line.
+/// records. Throws ToolError naming the line.
 IgesText split_iges_text(std::string_view text, const std::string& file);
 
-/// A whole number with blanks around it, as directory fields are. A blank field is 0. Throws DesignError naming the
+/// A whole number with blanks around it, as directory fields are. A blank field is 0. Throws ToolError naming the
 /// line for anything else.
 int iges_integer(std::string_view field, const std::string& file, std::size_t line);
 

@@ -7,10 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/design/design_file.hpp"
 #include "tools/design/iges/iges_surface.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/files/output_file.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -160,8 +161,8 @@ std::string iges_file_text(const IgesOutputHeader& header, const std::vector<Ige
     append_entry(entity, first, parameters.count(), directory);
   }
   if (parameters.count() > kLargestRecordNumber || directory.count() > kLargestRecordNumber) {
-    throw DesignError(fmt::format("{}: the design has too many control points for one IGES file; cut it into several",
-                                  header.file_name));
+    throw ToolError(fmt::format("{}: the design has too many control points for one IGES file; cut it into several",
+                                header.file_name));
   }
   Section terminate('T');
   terminate.append(
@@ -190,7 +191,7 @@ std::string iges_design_text(std::vector<NurbsSurface> surfaces, DesignUnit unit
 void write_iges_design(const std::filesystem::path& path, const std::vector<NurbsSurface>& surfaces, DesignUnit unit) {
   const std::string extension = lower_extension(path);
   if (extension != ".igs" && extension != ".iges") {
-    throw DesignError(fmt::format("{}: the design is written as IGES; give a name that ends in .igs", path.string()));
+    throw ToolError(fmt::format("{}: the design is written as IGES; give a name that ends in .igs", path.string()));
   }
   const auto now = std::chrono::system_clock::now();
   OutputFile(path, iges_design_text(surfaces, unit, path.filename().string(), now)).commit();

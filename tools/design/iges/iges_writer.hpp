@@ -34,7 +34,7 @@ std::string iges_real(double value);
 /// The parameters of entity 128 (IGES 5.3, section 4.25) with the numbers of `surface` as they are.
 std::string iges_surface_parameters(const NurbsSurface& surface);
 
-/// A whole IGES 5.3 file. Throws DesignError where it needs more records than their numbers have digits for.
+/// A whole IGES 5.3 file. Throws ToolError where it needs more records than their numbers have digits for.
 std::string iges_file_text(const IgesOutputHeader& header, const std::vector<IgesOutputEntity>& entities);
 
 /// The design as an IGES file in `unit`, one entity 128 a patch, labelled PATCH1, PATCH2, ...
@@ -43,7 +43,7 @@ std::string iges_file_text(const IgesOutputHeader& header, const std::vector<Ige
 std::string iges_design_text(std::vector<NurbsSurface> surfaces, DesignUnit unit, const std::string& file_name,
                              std::chrono::system_clock::time_point written);
 
-/// Writes the design to `path`, whole or not at all. Throws DesignError for a name that does not end in .igs or .iges,
+/// Writes the design to `path`, whole or not at all. Throws ToolError for a name that does not end in .igs or .iges,
 /// and as OutputFile does.
 void write_iges_design(const std::filesystem::path& path, const std::vector<NurbsSurface>& surfaces, DesignUnit unit);
 

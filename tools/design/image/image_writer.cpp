@@ -131,7 +131,7 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   const double near = kNear * half_diagonal(surfaces);
   for (const NurbsSurface& surface : surfaces) append_patch(extract_bezier(surface), outward, near, parts);
   if (parts.leaves.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
-    throw DesignError("the design has too many knot spans; export the blade with fewer knots");
+    throw ToolError("the design has too many knot spans; export the blade with fewer knots");
   }
   parts.nodes = build_bounding_tree(parts.boxes);
   for (std::uint32_t k = 0; k < parts.nodes.size(); ++k) {

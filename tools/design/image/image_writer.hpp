@@ -9,7 +9,7 @@ namespace bladefit {
 
 /// Compiles surfaces that check_surface has accepted into a design image: Bezier spans with their normal cones, the
 /// bounding tree, header and CRC. `outward` is +1 or -1. The same surfaces give the same bytes.
-/// Throws DesignError where the design has too many spans for the format.
+/// Throws ToolError where the design has too many spans for the format.
 std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward);
 
 /// Turns the outward side of a valid image to `outward` (+1 or -1), normal cones and CRC included.

@@ -23,17 +23,17 @@ std::size_t fewest_points(const BladeSections& sections) {
 
 void check_degree(const char* option, int degree) {
   if (degree >= 1 && degree <= static_cast<int>(kMaxDegree)) return;
-  throw DesignError(fmt::format("{} {}: give a degree from 1 to {}", option, degree, kMaxDegree));
+  throw ToolError(fmt::format("{} {}: give a degree from 1 to {}", option, degree, kMaxDegree));
 }
 
 void check_knots(const LoftSettings& settings) {
   if (settings.control_points && !settings.knots.empty()) {
-    throw DesignError("--control-points and --knots: give one of them, not both");
+    throw ToolError("--control-points and --knots: give one of them, not both");
   }
   double before = 0;
   for (const double knot : settings.knots) {
     if (!(knot > 0 && knot < 1 && knot >= before)) {
-      throw DesignError(fmt::format("--knots {}: give internal knots above 0 and below 1, rising", knot));
+      throw ToolError(fmt::format("--knots {}: give internal knots above 0 and below 1, rising", knot));
     }
     before = knot;
   }
@@ -44,21 +44,21 @@ int control_point_count(const BladeSections& sections, const LoftSettings& setti
   if (!settings.knots.empty()) return settings.degree + 1 + static_cast<int>(settings.knots.size());
   const int count = settings.control_points.value_or(default_control_points(sections, settings.degree));
   if (count > settings.degree) return count;
-  throw DesignError(fmt::format("--control-points {}: a curve of degree {} has at least {}", count, settings.degree,
-                                settings.degree + 1));
+  throw ToolError(fmt::format("--control-points {}: a curve of degree {} has at least {}", count, settings.degree,
+                              settings.degree + 1));
 }
 
 void check_counts(const BladeSections& sections, const LoftSettings& settings, int control_points) {
   const std::size_t count = sections.sections.size();
   if (count <= static_cast<std::size_t>(settings.span_degree)) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: {} sections are too few for degree {} over them, which needs {}; add sections "
                     "or lower --span-degree",
                     sections.file, count, settings.span_degree, settings.span_degree + 1));
   }
   for (const BladeSection& section : sections.sections) {
     if (section.points.size() >= static_cast<std::size_t>(control_points)) continue;
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}:{}: section {} has {} points, too few for {} control points; add points or take "
                     "fewer control points",
                     sections.file, section.lines.back(), section.name, section.points.size(), control_points));
@@ -71,12 +71,12 @@ std::vector<ExtendedPoint> fit_section(const BladeSections& sections, const Blad
   for (const Eigen::Vector3d& point : section.points) points.emplace_back(point.cast<long double>());
   const auto parameters = chord_parameters(points);
   if (!parameters) {
-    throw DesignError(fmt::format("{}:{}: all points of section {} are the same; give points along the section",
-                                  sections.file, section.lines.front(), section.name));
+    throw ToolError(fmt::format("{}:{}: all points of section {} are the same; give points along the section",
+                                sections.file, section.lines.front(), section.name));
   }
   auto controls = fit_spline(direction, *parameters, points);
   if (controls) return *std::move(controls);
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}:{}: section {} has no points between some knots, so that the curve is not "
                   "determined; lower --control-points or place --knots where points are",
                   sections.file, section.lines.front(), section.name));
@@ -93,8 +93,8 @@ std::vector<ExtendedPoint> fit_column(const std::vector<std::vector<ExtendedPoin
   }
   auto controls = fit_spline(direction, parameters, points);
   if (controls) return *std::move(controls);
-  throw DesignError(fmt::format("--span-degree {}: {} sections do not determine the surface; lower it",
-                                direction.degree, curves.size()));
+  throw ToolError(fmt::format("--span-degree {}: {} sections do not determine the surface; lower it", direction.degree,
+                              curves.size()));
 }
 
 }  // namespace
@@ -137,8 +137,8 @@ LoftDeviation loft_deviation(const NurbsSurface& surface, const BladeSections& s
   const std::vector<std::byte> image = write_image({surface}, DesignUnit::mm, 1);
   DesignImage design;
   if (const Status status = DesignImage::open(image, design); status != Status::ok) {
-    throw DesignError(fmt::format("{}: the lofted surface is not valid: {}; look for points that are far off",
-                                  sections.file, status_text(status)));
+    throw ToolError(fmt::format("{}: the lofted surface is not valid: {}; look for points that are far off",
+                                sections.file, status_text(status)));
   }
   LoftDeviation deviation;
   double sum = 0;

@@ -23,7 +23,7 @@ int default_control_points(const BladeSections& sections, int degree);
 /// spline by least squares over its chord length, first and last point interpolated, the same knots for all; then
 /// through their control points splines from section to section, section k of n at u = k / (n - 1), uniform internal
 /// knots. u runs over the sections in the order of the file, v along them, both 0..1. Lengths are turned to mm.
-/// Throws DesignError for settings that cannot be, and for sections that are too few, have too few points or do not
+/// Throws ToolError for settings that cannot be, and for sections that are too few, have too few points or do not
 /// determine the curve. Cost: points x degree^2.
 NurbsSurface loft(const BladeSections& sections, const LoftSettings& settings, double mm_per_unit);
 

@@ -6,7 +6,8 @@
 #include <set>
 
 #include "drivers/text/csv_table.hpp"
-#include "tools/design/design_file.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -18,7 +19,7 @@ constexpr std::string_view kHeaderMend = "the first line must name the columns: 
 
 constexpr CsvFormat kFormat{kColumns, kNeeded, 0, kHeaderMend};
 
-[[noreturn]] void fail(const CsvPlace& place, std::string_view what) { throw DesignError(place.say(what)); }
+[[noreturn]] void fail(const CsvPlace& place, std::string_view what) { throw ToolError(place.say(what)); }
 
 /// One row of the file.
 struct Row {
@@ -37,7 +38,7 @@ Row parse_row(const CsvRow& cells) {
     }
     std::string error;
     const std::optional<double> value = finite_cell(cells, k, kFormat, error);
-    if (!value) throw DesignError(error);
+    if (!value) throw ToolError(error);
     if (column == index_column) row.index = value;
     if (column == radius_column) row.radius = value;
     if (column >= x_column && column <= z_column) row.point[static_cast<Eigen::Index>(column - x_column)] = *value;
@@ -92,9 +93,9 @@ BladeSections parse_sections_csv(std::string_view text, const std::string& name)
     collector.take(row.place, parse_row(row));
     return std::string();
   });
-  if (!error.empty()) throw DesignError(error);
+  if (!error.empty()) throw ToolError(error);
   if (result.sections.empty()) {
-    throw DesignError(fmt::format("{}: there is no point in the file; add a line for each point", name));
+    throw ToolError(fmt::format("{}: there is no point in the file; add a line for each point", name));
   }
   return result;
 }

@@ -25,7 +25,7 @@ struct Context {
   std::vector<std::string>* notes = nullptr;
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw DesignError(fmt::format("{}: {}: {}", file, surface, what));
+    throw ToolError(fmt::format("{}: {}: {}", file, surface, what));
   }
   void note(const std::string& what) const { notes->push_back(fmt::format("{}: {}", surface, what)); }
 };

@@ -145,12 +145,12 @@ OutwardSide find_outward_side(const std::vector<NurbsSurface>& surfaces, const s
                         100 * majority / votes.area, plus ? "" : "-")};
   }
   if (std::min(votes.outward, votes.inward) >= kContradiction * votes.area) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: the patches' normals do not all point to the same side of the material; reverse "
                     "the wrong ones in the CAD system",
                     file));
   }
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: the shape does not tell which side is away from the material; say --outward + (that "
                   "of Su x Sv) or --outward -",
                   file));

@@ -14,7 +14,7 @@ struct OutwardSide {
 
 /// Finds the side away from the material of surfaces that close around it, with gaps such as an open trailing edge,
 /// root and tip: the winding number of the set, seen from its own points, is then near +1/2 or -1/2, but near 0 on an
-/// open sheet. `file` is named in messages. Throws DesignError where the shape does not tell, or patches contradict
+/// open sheet. `file` is named in messages. Throws ToolError where the shape does not tell, or patches contradict
 /// each other.
 OutwardSide find_outward_side(const std::vector<NurbsSurface>& surfaces, const std::string& file);
 

@@ -26,19 +26,19 @@ class QuietMessages {
   Message_SequenceOfPrinters printers_;
 };
 
-/// Runs `read`, which calls OpenCASCADE on `file`, in silence; whatever it throws becomes a DesignError.
+/// Runs `read`, which calls OpenCASCADE on `file`, in silence; whatever it throws becomes a ToolError.
 template <class Read>
 auto with_cad_library(const std::string& file, Read read) {
   const QuietMessages quiet;
   try {
     return read();
-  } catch (const DesignError&) {
+  } catch (const ToolError&) {
     throw;
   } catch (const Standard_Failure& failure) {
-    throw DesignError(fmt::format("{}: the CAD library refuses the file ({}: {}); export the design again", file,
-                                  failure.DynamicType()->Name(), failure.GetMessageString()));
+    throw ToolError(fmt::format("{}: the CAD library refuses the file ({}: {}); export the design again", file,
+                                failure.DynamicType()->Name(), failure.GetMessageString()));
   } catch (const std::exception& failure) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: the CAD library refuses the file ({}); export the design again", file, failure.what()));
   }
 }

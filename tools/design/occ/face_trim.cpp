@@ -75,7 +75,7 @@ bool is_trimmed(const TopoDS_Shape& shape) {
 std::vector<std::string> trimmed_iges_faces(const std::filesystem::path& path) {
   IGESControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) {
-    throw DesignError(fmt::format("{}: its trimmed surfaces cannot be read; export the design again", path.string()));
+    throw ToolError(fmt::format("{}: its trimmed surfaces cannot be read; export the design again", path.string()));
   }
   const Handle(IGESData_IGESModel) model = reader.IGESModel();
   std::vector<std::string> names;

@@ -21,6 +21,8 @@
 #include "tools/design/step/step_surface.hpp"
 #include "tools/design/step/step_text.hpp"
 #include "tools/design/step/step_unit.hpp"
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -49,8 +51,8 @@ void check_readable(const StepData_StepModel& model, int index, const std::strin
   if (!model.IsErrorEntity(index)) return;
   const Handle(Interface_Check)& check = model.Check(index, Standard_True);
   const std::string reason = !check.IsNull() && check->NbFails() > 0 ? check->CFail(1) : "damaged record";
-  throw DesignError(fmt::format("{}: #{} ({}): {}; export the design again", file, model.IdentLabel(model.Value(index)),
-                                model.TypeName(model.Value(index), Standard_False), reason));
+  throw ToolError(fmt::format("{}: #{} ({}): {}; export the design again", file, model.IdentLabel(model.Value(index)),
+                              model.TypeName(model.Value(index), Standard_False), reason));
 }
 
 /// Refuses what would stand somewhere else than its coordinates say.
@@ -58,7 +60,7 @@ void check_placement(const StepData_StepModel& model, int index, const std::stri
   const Handle(Standard_Transient)& entity = model.Value(index);
   if (entity->IsKind(STANDARD_TYPE(StepRepr_MappedItem)) ||
       entity->IsKind(STANDARD_TYPE(StepRepr_RepresentationRelationshipWithTransformation))) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: #{}: the file is an assembly, whose placements are not supported; export the "
                     "blade as one part",
                     file, model.IdentLabel(entity)));
@@ -132,12 +134,12 @@ void sort_surfaces(std::vector<NamedSurface>& surfaces) {
 DesignFile read_model(const std::string& file) {
   STEPControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
-    throw DesignError(fmt::format("{}: the STEP file cannot be parsed; export the design again", file));
+    throw ToolError(fmt::format("{}: the STEP file cannot be parsed; export the design again", file));
   }
   const Handle(StepData_StepModel) model = reader.StepModel();
   std::vector<NamedSurface> surfaces = find_surfaces(*model, file);
   if (surfaces.empty()) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: no B-spline surface in the file; entity types there: {}; export the blade as "
                     "B-spline surfaces",
                     file, list_types(*model)));

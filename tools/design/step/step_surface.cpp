@@ -36,7 +36,7 @@ struct KnotTables {
 struct Source {
   std::string file, name;
   [[noreturn]] void fail(const std::string& what) const {
-    throw DesignError(fmt::format("{}: {}: {}; export the design again", file, name, what));
+    throw ToolError(fmt::format("{}: {}: {}; export the design again", file, name, what));
   }
 };
 

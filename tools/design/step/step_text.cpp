@@ -33,7 +33,7 @@ class TokenScanner {
  public:
   TokenScanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-  /// Throws DesignError at the first fault.
+  /// Throws ToolError at the first fault.
   void check() {
     while (place_ < text_.size()) step();
     if (depth_ != 0) fail("the last statement does not end");
@@ -89,7 +89,7 @@ class TokenScanner {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw DesignError(fmt::format("{}: line {}: {}; export the design again", file_, line_, what));
+    throw ToolError(fmt::format("{}: line {}: {}; export the design again", file_, line_, what));
   }
 
   std::string_view text_;
@@ -102,20 +102,20 @@ class TokenScanner {
 
 void check_step_text(std::string_view text, const std::string& file) {
   const std::string_view body = trimmed(text);
-  if (body.empty()) throw DesignError(fmt::format("{}: the file is empty; export the design again", file));
+  if (body.empty()) throw ToolError(fmt::format("{}: the file is empty; export the design again", file));
   if (body.substr(0, kFirst.size()) != kFirst) {
-    throw DesignError(
+    throw ToolError(
         fmt::format("{}: line 1: not a STEP file: it does not begin with {}; give a STEP (.stp, .step) or "
                     "IGES (.igs, .iges) file",
                     file, kFirst));
   }
   if (body.size() < kLast.size() || body.substr(body.size() - kLast.size()) != kLast) {
     const auto lines = std::count(body.begin(), body.end(), '\n') + 1;
-    throw DesignError(fmt::format(
-        "{}: line {}: the file is truncated: it does not end with {}; export the design again", file, lines, kLast));
+    throw ToolError(fmt::format("{}: line {}: the file is truncated: it does not end with {}; export the design again",
+                                file, lines, kLast));
   }
   if (body.find("DATA;") == std::string_view::npos) {
-    throw DesignError(fmt::format("{}: the file has no DATA section; export the design again", file));
+    throw ToolError(fmt::format("{}: the file has no DATA section; export the design again", file));
   }
   TokenScanner(text.substr(0, text.find_last_not_of(kBlank) + 1), file).check();
 }

@@ -88,11 +88,11 @@ LengthUnit read_step_unit(const StepData_StepModel& model, const std::string& fi
       if (unit.IsNull() || !is_length(unit)) continue;
       const std::optional<LengthUnit> length = resolve(unit, kMaxConversions);
       if (!length) {
-        throw DesignError(fmt::format("{}: #{}: unknown unit of length; export the design in mm or inches", file,
-                                      model.IdentLabel(unit)));
+        throw ToolError(fmt::format("{}: #{}: unknown unit of length; export the design in mm or inches", file,
+                                    model.IdentLabel(unit)));
       }
       if (found && found->mm != length->mm) {
-        throw DesignError(
+        throw ToolError(
             fmt::format("{}: #{}: the file mixes units of length ({} mm and {} mm); export the design in "
                         "one unit",
                         file, model.IdentLabel(unit), found->mm, length->mm));
@@ -101,7 +101,7 @@ LengthUnit read_step_unit(const StepData_StepModel& model, const std::string& fi
     }
   }
   if (found) return *found;
-  throw DesignError(
+  throw ToolError(
       fmt::format("{}: no unit of length (GLOBAL_UNIT_ASSIGNED_CONTEXT) in the file; export the design "
                   "in mm or inches",
                   file));

@@ -7,7 +7,7 @@
 
 namespace bladefit {
 
-/// The unit of length that the geometric contexts of a STEP file assign. Throws DesignError where there is none, one
+/// The unit of length that the geometric contexts of a STEP file assign. Throws ToolError where there is none, one
 /// that is not known, or two different ones.
 LengthUnit read_step_unit(const StepData_StepModel& model, const std::string& file);
 
