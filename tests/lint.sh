@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# clang-tidy over the product, with the checks of .clang-tidy.
-#   tests/lint.sh               everything
+# clang-tidy over the product, with the checks of .clang-tidy; without arguments also the house rules.
+#   tests/lint.sh               everything, beginning with tests/house/house_rules.py
 #   tests/lint.sh FOLDER...     the files in these folders, for example core drivers/serial
 # Nearly all the time goes into the headers of Eigen, CLI11 and OpenCASCADE, so the files of a folder are read as one unit
 # that includes them all. Files whose private names clash with those of others are put into a unit of their own.
@@ -48,11 +48,12 @@ sources_of() {
   if [[ $1 == tools ]]; then "${sources[@]}" | grep -v '^tools/design/'; else "${sources[@]}"; fi
 }
 
-if [[ $# -eq 0 ]]; then
-  printf '%s\n' tools core tools/design firmware_bridge drivers config | xargs -P "$(nproc)" -n 1 "$0"
-  exit
-fi
 bad=0
+if [[ $# -eq 0 ]]; then
+  tests/house/house_rules.py || bad=1
+  printf '%s\n' tools core tools/design firmware_bridge drivers config | xargs -P "$(nproc)" -n 1 "$0" || bad=1
+  exit $bad
+fi
 for folder in "$@"; do
   mapfile -t files < <(sources_of "$folder")
   lint "${files[@]}" || bad=1
