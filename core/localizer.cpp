@@ -1,37 +1,29 @@
 #include "core/localizer.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
 
+#include "core/localizer/localizer_parts.hpp"
+
 namespace bladefit {
 namespace {
 
 constexpr std::size_t kAlignment = 64;
-/// Points farther from the middle of the design than this [half diagonals] are not of this blade.
-constexpr double kFarthest = 1e3;
-/// A distance above its tolerance by no more than this [half diagonals] is in: a constrained optimum touches its
-/// bounds.
-constexpr double kTouching = 1e-11;
-/// A verdict is pending while what is not determined may change the distance by more than this share of the tolerance.
-constexpr double kPendingShare = 0.1;
-/// Fewer fitted points than this hide their own errors: every verdict is pending.
-constexpr std::uint32_t kLeastFitted = 12;
-/// While the pose has moved further than this [half diagonals] since the sums in use were begun, pushes
-/// refresh this many times the points: the expansions are worn out.
-constexpr double kWornBeyond = 5e-4;
-constexpr std::uint32_t kCatchUp = 8;
 /// Where addresses have 32 bits, a large capacity needs more than that.
 constexpr std::uint64_t kMoreThanThereIs = std::numeric_limits<std::size_t>::max() - 4096;
 
 constexpr std::uint64_t rounded_up(std::uint64_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
 
-Vec3 to_vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
-
-bool finite(const std::array<double, 3>& a) {
-  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+/// Takes the next `count` objects out of the block at `place`, each constructed.
+template <class Object>
+Object* placed(std::byte*& place, std::size_t count) {
+  auto* first = reinterpret_cast<Object*>(place);
+  for (std::size_t k = 0; k < count; ++k) new (first + k) Object();
+  place += rounded_up(sizeof(Object) * count);
+  return first;
 }
 
 bool tolerances_valid(const ToleranceMap& map, std::size_t patches) {
@@ -61,21 +53,144 @@ bool config_valid(const LocalizerConfig& c, std::size_t patches) {
          pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
 }
 
+Evidence evidence_of(const LocalizerParts& p) {
+  return {p.estimate, p.sums.model().count >= tuning::kLeastJudged || p.stream.concluded};
+}
+
+Status check(const LocalizerParts& p, const ProbePoint& point) {
+  if (const Status status = p.problem.check(point); status != Status::ok) return status;
+  return point.sequence <= p.stream.last_sequence ? Status::duplicate : Status::ok;
+}
+
+bool outside_window(const LocalizerParts& p, const StoredPoint& point) {
+  const LocalizerConfig& config = p.problem.config;
+  if (config.window_low <= 0.0 && config.window_high >= 1.0) return false;
+  const Foot foot = p.finder.find(point, config.start, Search::always).foot;
+  const auto outside = [&config](double t) { return t < config.window_low || t > config.window_high; };
+  return outside(foot.u) || outside(foot.v);
+}
+
+StoredPoint made_from(const LocalizerParts& p, const ProbePoint& point, const SurfacePlace& start) {
+  StoredPoint stored;
+  stored.position = to_vec3(point.position);
+  if (p.problem.config.use_approach) stored.approach = to_vec3(point.approach);
+  stored.sequence = point.sequence;
+  stored.weight = point.weight;
+  stored.span = start.span;
+  stored.foot.u = start.u;
+  stored.foot.v = start.v;
+  stored.outside_window = outside_window(p, stored);
+  return stored;
+}
+
+/// A point has come: what was found over those before it is open again.
+void reopen(LocalizerParts& p) {
+  p.refinement.interrupt();
+  p.selection.by_foot();
+  p.optimum.infeasible = false;
+}
+
+void count_in(LocalizerParts& p, const StoredPoint& point, const Measurement& m) {
+  p.stream.last_sequence = point.sequence;
+  p.stream.last_place = m.projection.place;
+  ++p.stream.accepted;
+}
+
+/// Gives the point a place in memory, where there is none that of another one if it is of the leading edge. Returns its
+/// index; size() of the store where it found none.
+std::uint32_t store(LocalizerParts& p, const StoredPoint& point, const Measurement& m) {
+  count_in(p, point, m);
+  std::uint32_t index = p.store.size();
+  if (!p.store.full()) {
+    p.store.append(point);
+  } else {
+    const bool of_edge = p.problem.region_of(m.foot) == Region::leading_edge && !p.selection.left_out(point, m.foot);
+    if (of_edge) index = p.store.next_to_evict([&p](std::uint32_t i) { return p.stream_optimum.holds(i); });
+    if (index == p.store.size()) {
+      p.sums.take_in_passing(point, m, p.estimate.pose());
+      return index;
+    }
+    p.sums.evict(p.store[index], index, p.estimate.pose());
+    p.store.replace(index, point);
+  }
+  p.store.record(p.store[index], m, p.estimate.revision());
+  p.sums.take_in(p.store, index, p.estimate);
+  return index;
+}
+
+/// The mode's programs after a new point: the pose becomes their solution. `index`: of the new point, where it is
+/// stored.
+void follow_mode(LocalizerParts& p, std::uint32_t index) {
+  if (!p.plan.bounded()) return;
+  const Pose before = p.estimate.pose();
+  if (index < p.store.size() && p.stream_optimum.leads())
+    p.stream_optimum.look_at(p.store, index, p.finder.find(p.store[index], before, Search::past_margin));
+  p.stream_optimum.follow(p.store, p.sums.model(), p.estimate, p.optimum);
+  if (!p.stream_optimum.leads()) return;
+  const Pose& pose = p.stream_optimum.pose(p.optimum);
+  if (motion_between(before, pose, p.problem.frame).norm() > 0.0) p.estimate.move_to(pose);
+}
+
+void stage_made(LocalizerParts& p, const StoredPoint& made, Search search) {
+  reopen(p);
+  p.stream_optimum.stop();
+  p.estimate.redetermine();
+  p.sums.settle_all(p.store, p.estimate);
+  if (p.sums.cursor() > 0) p.sums.begin_sweep(p.estimate.pose());  // points that wait for its end are in no sums of it
+  const Measurement m = p.finder.find(made, p.estimate.pose(), search);
+  count_in(p, made, m);
+  StoredPoint& own = p.store[p.store.append(made)];
+  p.store.record(own, m, p.estimate.revision());
+  p.sums.take_in_staged(own, m, p.estimate.pose());
+  p.verdicts.judge_new(own, evidence_of(p));
+}
+
+bool on_design(const Surface& surface, const SurfacePlace& place) {
+  const bool inside = place.u >= 0.0 && place.u <= 1.0 && place.v >= 0.0 && place.v <= 1.0;
+  return inside && place.span < surface.image().spans().size();
+}
+
+RegionReport region_report(const RegionSums& sums, std::uint32_t judged_out) {
+  RegionReport report;
+  report.count = sums.count;
+  report.judged_out = judged_out;
+  report.rms_mm = sums.count > 0 ? std::sqrt(sums.square / sums.count) : 0.0;
+  report.worst_mm = sums.worst;
+  report.worst_sequence = sums.worst_sequence;
+  return report;
+}
+
+void report_estimate(const LocalizerParts& p, FitReport& report) {
+  const PoseEstimate& estimate = p.estimate;
+  const QuadraticModel& model = p.sums.model();
+  report.pose = estimate.pose();
+  report.determined = estimate.determination().rank;
+  report.smallest_eigenvalue = estimate.determination().smallest;
+  report.gradient = estimate.last_step();
+  report.revision = estimate.revision();
+  report.fitted = model.count;
+  const double square = 2.0 * model.value_at(motion_between(model.reference, estimate.pose(), p.problem.frame));
+  const std::uint32_t unknowns = 6 - estimate.determination().locked;
+  const bool robust = p.loss.robust();
+  if (model.weight > 0.0) report.rms_mm = std::sqrt(square / model.weight);
+  if (robust) report.loss_scale_mm = p.loss.scale();
+  if (model.count > unknowns) report.sigma_mm = robust ? p.loss.scale() : std::sqrt(square / (model.count - unknowns));
+  if (!estimate.determined()) return;
+  const double variance = report.sigma_mm * report.sigma_mm;
+  report.covariance = pose_covariance(variance * estimate.covariance(), estimate.pose(), p.problem.frame);
+  const bool converged = p.refinement.phase() == RefinementPhase::done;
+  report.status = p.optimum.infeasible ? FitStatus::infeasible : converged ? FitStatus::converged : FitStatus::tracking;
+}
+
 }  // namespace
 
 std::size_t Localizer::memory_required(const LocalizerConfig& config) {
   const std::uint64_t rows = config.mode == FitMode::least_squares ? 0 : BoundedFit::kDoublesPerPoint;
   const std::uint64_t points = config.capacity;
-  const std::uint64_t size = rounded_up(sizeof(Localizer)) + rounded_up(sizeof(StoredPoint) * points) +
-                             2 * rounded_up(sizeof(std::uint32_t) * points) +
+  const std::uint64_t size = rounded_up(sizeof(Localizer)) + rounded_up(sizeof(LocalizerParts)) +
+                             rounded_up(sizeof(StoredPoint) * points) + 2 * rounded_up(sizeof(std::uint32_t) * points) +
                              rounded_up(sizeof(double) * rows * points);
   return static_cast<std::size_t>(std::min<std::uint64_t>(size, kMoreThanThereIs));
-}
-
-Localizer::Localizer(const DesignImage& design, const LocalizerConfig& config) : surface_(design), config_(config) {
-  frame_.pivot = surface_.middle();
-  frame_.length = surface_.half_diagonal();
-  if (config_.determined_mm == 0.0) config_.determined_mm = 1e-3 * frame_.length;
 }
 
 Status Localizer::create(std::span<std::byte> memory, const DesignImage& design, const LocalizerConfig& config,
@@ -85,145 +200,147 @@ Status Localizer::create(std::span<std::byte> memory, const DesignImage& design,
   if (!config_valid(config, design.patches().size())) return Status::out_of_range;
   if (memory.size() < memory_required(config)) return Status::not_enough_memory;
 
-  std::byte* place = memory.data();
-  auto* made = new (place) Localizer(design, config);
-  place += rounded_up(sizeof(Localizer));
-  made->points_ = reinterpret_cast<StoredPoint*>(place);
-  for (std::uint32_t k = 0; k < config.capacity; ++k) new (&made->points_[k]) StoredPoint();
-  place += rounded_up(sizeof(StoredPoint) * config.capacity);
-  made->queue_ = reinterpret_cast<std::uint32_t*>(place);
-  for (std::uint32_t k = 0; k < config.capacity; ++k) new (&made->queue_[k]) std::uint32_t(0);
-  place += rounded_up(sizeof(std::uint32_t) * config.capacity);
-  made->order_ = reinterpret_cast<std::uint32_t*>(place);
-  for (std::uint32_t k = 0; k < config.capacity; ++k) new (&made->order_[k]) std::uint32_t(0);
-  place += rounded_up(sizeof(std::uint32_t) * config.capacity);
-  if (config.mode != FitMode::least_squares) {
-    auto* rows = reinterpret_cast<double*>(place);
-    for (std::size_t k = 0; k < BoundedFit::kDoublesPerPoint * config.capacity; ++k) new (&rows[k]) double(0);
-    made->bounded_.attach(rows, config.capacity);
+  std::byte* place = memory.data() + rounded_up(sizeof(Localizer));
+  auto* parts = new (place) LocalizerParts(design, config);
+  place += rounded_up(sizeof(LocalizerParts));
+  auto* points = placed<StoredPoint>(place, config.capacity);
+  auto* order = placed<std::uint32_t>(place, config.capacity);
+  parts->store.attach(points, order, config.capacity);
+  parts->verdicts.attach(placed<std::uint32_t>(place, config.capacity), config.capacity);
+  if (parts->plan.bounded()) {
+    parts->refinement.attach(placed<double>(place, BoundedFit::kDoublesPerPoint * config.capacity), config.capacity);
   }
-  made->reset();
-  localizer = made;
+  localizer = new (memory.data()) Localizer(*parts);
+  localizer->reset();
   return Status::ok;
 }
 
 void Localizer::reset() {
-  pose_ = config_.start;
-  settled_ = filling_ = frozen_ = FitSums();
-  frozen_.model.reference = pose_;
-  determination_ = Determination();
-  determination_.free_directions = Mat6::Identity();
-  refinement_ = Refinement();
-  sigma_ = config_.noise_floor_mm;
-  begin_loss();
-  stop_trackers();
-  concluded_ = converged_ = has_last_ = regions_held_ = exits_count_ = infeasible_ = false;
-  tolerance_factor_ = smallest_tolerance_ = stationarity_ = 0;
-  certificate_ = Certificate();
-  unproven_ = 0;
-  searches_ = revision_ = accepted_ = rejected_ = last_sequence_ = last_path_ = 0;
-  judged_out_[0] = judged_out_[1] = 0;
-  stored_ = next_given_up_ = fresh_count_ = active_count_ = cursor_ = queue_head_ = queue_size_ = 0;
-  last_place_ = SurfacePlace();
-  last_step_ = 0;
-  begin_sweep();
-  settled_ = current_ = filling_;
-  covariance_ = unit_covariance(current_.model, determination_, 1.0);
-}
-
-Status Localizer::check(const ProbePoint& point) const {
-  if (!finite(point.position) || !finite(point.approach) || !std::isfinite(point.weight)) return Status::not_finite;
-  const double length = to_vec3(point.approach).norm();
-  const double off = (apply(config_.start, to_vec3(point.position)) - frame_.pivot).norm();
-  if (off > kFarthest * frame_.length) return Status::out_of_range;
-  if (!(point.weight > 0.0)) return Status::out_of_range;
-  if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > 1e-3)) return Status::out_of_range;
-  return point.sequence <= last_sequence_ ? Status::duplicate : Status::ok;
-}
-
-StoredPoint Localizer::made_from(const ProbePoint& point, const SurfacePlace& start) const {
-  StoredPoint stored;
-  stored.position = to_vec3(point.position);
-  if (config_.use_approach) stored.approach = to_vec3(point.approach);
-  stored.sequence = point.sequence;
-  stored.weight = point.weight;
-  stored.span = start.span;
-  stored.foot.u = start.u;
-  stored.foot.v = start.v;
-  stored.outside_window = outside_window(stored);
-  return stored;
+  LocalizerParts& p = *parts_;
+  p.store.clear();
+  p.selection.by_foot();
+  p.loss.restart();
+  p.sums.clear(p.problem.config.start);
+  p.estimate.reset(p.sums.model());
+  p.verdicts.clear();
+  p.optimum = ModeOptimum();
+  p.stream_optimum.stop();
+  p.refinement.clear();
+  p.stream = StreamState();
 }
 
 Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
-  if (const Status status = check(point); status != Status::ok) return status;
-  redetermine_ = redetermine_ || concluded_;
-  refinement_.active = concluded_ = converged_ = regions_held_ = exits_count_ = infeasible_ = false;
-  if (refinement_.further.active) {
-    refinement_.further.active = false;
-    begin_sweep();  // that of a start has filled no sums
-  }
-  StoredPoint passing = made_from(point, last_place_);
-  const Measurement measurement = measure(passing, pose_, Search::past_lead);
-  StoredPoint* place = store(passing, measurement);
-  settle();
-  const bool worn = motion_between(settled_.model.reference, pose_, frame_).norm() > kWornBeyond * frame_.length;
-  refresh(worn ? kCatchUp * config_.refresh_per_push : config_.refresh_per_push);
-  gather(measurement);
-  solve();
+  LocalizerParts& p = *parts_;
+  if (const Status status = check(p, point); status != Status::ok) return status;
+  if (p.stream.concluded) p.estimate.redetermine();
+  p.stream.concluded = false;
+  reopen(p);
 
-  StoredPoint& own = place != nullptr ? *place : passing;
-  if (place == nullptr) note(passing, measurement);
-  if (place != nullptr && tracker_.active())
-    look_at(static_cast<std::uint32_t>(place - points_), measure(own, pose_, Search::past_lead));
-  follow_bounds();
-  note(own, measure(own, pose_, Search::past_lead));
-  judge(own);
-  own.told_state = own.state;
-  own.told_action = own.action;
-  verdict = verdict_from(own);
-  if (place == nullptr) return Status::memory_full;
-  return determination_.rank == 6 ? Status::ok : Status::underdetermined;
+  StoredPoint passing = made_from(p, point, p.stream.last_place);
+  const Measurement measured = p.finder.find(passing, p.estimate.pose(), Search::past_margin);
+  const std::uint32_t index = store(p, passing, measured);
+  const bool stored = index < p.store.size();
+  StoredPoint& own = stored ? p.store[index] : passing;
+
+  const auto review = [&p](std::uint32_t i, const Measurement& m) {
+    p.store.record(p.store[i], m, p.estimate.revision());
+    p.stream_optimum.look_at(p.store, i, m);
+    p.verdicts.judge_again(p.store, i, evidence_of(p));
+  };
+  p.sums.settle(p.store, p.estimate);
+  const bool stale = p.sums.moved_to(p.estimate.pose()) > tuning::kStaleBeyond * p.problem.frame.length;
+  const std::uint32_t budget = p.problem.config.refresh_per_push * (stale ? tuning::kCatchUp : 1);
+  if (p.sums.refresh(p.store, p.estimate, budget, review)) p.estimate.redetermine();
+  p.sums.gather(p.store, p.estimate.pose(), point.sequence, measured, review);
+
+  const Minimum minimum =
+      p.estimate.minimum_of(p.sums.model(), p.loss, p.stream.concluded, PoseEstimate::Undetermined::to_start);
+  p.estimate.know(minimum);
+  if (!p.stream_optimum.leads()) p.estimate.move_to(minimum.pose);
+  if (!stored) p.store.record(passing, measured, p.estimate.revision());
+  follow_mode(p, index);
+
+  p.store.record(own, p.finder.find(own, p.estimate.pose(), Search::past_margin), p.estimate.revision());
+  p.verdicts.judge_new(own, evidence_of(p));
+  verdict = bladefit::verdict_of(own);
+  if (!stored) return Status::memory_full;
+  return p.estimate.determined() ? Status::ok : Status::underdetermined;
+}
+
+Status Localizer::stage(const ProbePoint& point) {
+  LocalizerParts& p = *parts_;
+  if (const Status status = check(p, point); status != Status::ok) return status;
+  if (p.store.full()) return Status::out_of_range;
+  stage_made(p, made_from(p, point, p.stream.last_place), Search::always);
+  return Status::ok;
+}
+
+Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start) {
+  LocalizerParts& p = *parts_;
+  if (const Status status = check(p, point); status != Status::ok) return status;
+  if (p.store.full() || !on_design(p.problem.surface, start)) return Status::out_of_range;
+  StoredPoint made = made_from(p, point, start);
+  made.runner_up.margin = std::numeric_limits<double>::infinity();  // no motion makes the foot doubtful
+  stage_made(p, made, Search::if_doubtful);
+  return Status::ok;
+}
+
+Status Localizer::refine(std::uint32_t max_points) {
+  LocalizerParts& p = *parts_;
+  if (p.store.size() == 0) return Status::underdetermined;
+  if (p.refinement.phase() == RefinementPhase::done) return Status::ok;
+  if (p.refinement.phase() == RefinementPhase::idle) {
+    p.stream_optimum.stop();
+    p.refinement.begin(p.stream.concluded, p.optimum);
+  }
+  const Status status = p.refinement.advance(max_points, p.stream.concluded, p.optimum);
+  if (status == Status::more_work) return status;
+  for (std::uint32_t i = 0; i < p.store.size(); ++i) p.verdicts.judge_again(p.store, i, evidence_of(p));
+  if (status == Status::ok && p.plan.bounded()) p.stream_optimum.begin(p.store, p.estimate.pose(), 1);
+  return status;
 }
 
 void Localizer::conclude() {
-  concluded_ = redetermine_ = true;
-  const bool sought_on = config_.mode != FitMode::least_squares && config_.further_starts > 0;
-  if (sought_on && !refinement_.further.done) converged_ = false;
+  LocalizerParts& p = *parts_;
+  p.stream.concluded = true;
+  p.estimate.redetermine();
+  const bool sought_on = p.plan.bounded() && p.problem.config.further_starts > 0;
+  const bool converged = p.refinement.phase() == RefinementPhase::done;
+  if (converged && sought_on && !p.refinement.further_starts().done()) p.refinement.interrupt();
 }
 
-void Localizer::count_verdict(const StoredPoint& point, int sign) {
-  const auto one = static_cast<std::uint32_t>(sign);
-  if (point.state == PointState::out) judged_out_[static_cast<std::size_t>(point.region)] += one;
-  if (point.state == PointState::rejected) rejected_ += one;
+bool Localizer::next_revision(Verdict& verdict) { return parts_->verdicts.next_revision(parts_->store, verdict); }
+
+Status Localizer::verdict_of(std::uint32_t sequence, Verdict& verdict) const {
+  const PointStore& points = parts_->store;
+  const std::uint32_t index = points.find(sequence);
+  if (index == points.size()) return Status::not_found;
+  verdict = bladefit::verdict_of(points[index]);
+  return Status::ok;
 }
 
-void Localizer::judge(StoredPoint& point) {
-  if (point.tolerance != 0.0) count_verdict(point, -1);
-  const Foot& foot = point.foot;
-  if (!regions_held_) {
-    point.region = region_at(config_.tolerance, foot.patch, foot.u, foot.v);
-    point.tolerance = tolerance_at(config_.tolerance, foot.patch, foot.u, foot.v);
+FitReport Localizer::fit() const {
+  const LocalizerParts& p = *parts_;
+  FitReport report;
+  report_estimate(p, report);
+  report.points = p.stream.accepted;
+  report.rejected = p.verdicts.rejected();
+  report.memory_full = p.stream.accepted > p.store.size();
+  const bool converged = p.refinement.phase() == RefinementPhase::done;
+  report.improving = p.plan.bounded() && !converged && p.stream_optimum.improving(p.store);
+  report.tolerance_factor_mm = p.optimum.value;
+  report.smallest_tolerance_mm = p.optimum.smallest_tolerance;
+  report.certificate = p.optimum.certificate;
+  report.stationarity = p.optimum.stationarity;
+  if (p.refinement.further_starts().done()) {
+    report.further_starts = p.problem.config.further_starts;
+    report.same_optimum = p.refinement.further_starts().same();
   }
-  Vec6 gradient;
-  gradient.head<3>() = (apply(pose_, point.position) - frame_.pivot).cross(foot.normal) / frame_.length;
-  gradient.tail<3>() = foot.normal;
-  point.uncertainty = sigma_ * std::sqrt(std::max(0.0, gradient.dot(covariance_ * gradient)));
-
-  const double free =
-      (determination_.free_directions.transpose() * gradient).norm() * kStartUncertainty * frame_.length;
-  const double share = kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : config_.determined_mm);
-  point.action = Action::none;
-  if (left_out(point, foot)) {
-    point.state = PointState::rejected;
-  } else if (free > share || (current_.model.count < kLeastFitted && !concluded_)) {
-    point.state = PointState::pending;
-  } else if (std::abs(foot.distance) > point.tolerance + kTouching * frame_.length) {
-    point.state = PointState::out;
-    point.action = foot.distance > 0.0 ? Action::cut : Action::weld;
-  } else {
-    point.state = PointState::in;
-  }
-  count_verdict(point, +1);
+  report.unproven = p.refinement.unproven();
+  report.searches = p.store.searches();
+  report.rest = region_report(p.sums.region(Region::rest), p.verdicts.out(Region::rest));
+  report.leading_edge = region_report(p.sums.region(Region::leading_edge), p.verdicts.out(Region::leading_edge));
+  return report;
 }
 
 }  // namespace bladefit

@@ -3,18 +3,14 @@
 #include <cstdint>
 #include <span>
 
+#include "core/fit/fit_mode.hpp"
 #include "core/fit/loss.hpp"
+#include "core/fit/motion_lock.hpp"
 #include "core/fit/pose.hpp"
-#include "core/fit/pose_solver.hpp"
-#include "core/geometry/surface/design_image.hpp"
+#include "core/geometry/surface/surface.hpp"
 #include "core/inspection/tolerance_map.hpp"
 #include "core/inspection/verdict.hpp"
-#include "core/localizer/measurement.hpp"
-#include "core/localizer/refinement.hpp"
-#include "core/localizer/stored_point.hpp"
 #include "core/probe_point.hpp"
-#include "core/programs/bound_tracker.hpp"
-#include "core/programs/bounded_fit.hpp"
 #include "core/status.hpp"
 
 namespace bladefit {
@@ -101,6 +97,8 @@ struct FitReport {
   bool improving = false;
 };
 
+struct LocalizerParts;
+
 /// Incremental least squares of a stream of points against a design surface, in the caller's memory.
 /// One thread owns it. No call allocates, locks, throws or loops without a bound.
 class Localizer {
@@ -150,138 +148,9 @@ class Localizer {
   void reset();
 
  private:
-  Localizer(const DesignImage& design, const LocalizerConfig& config);
+  explicit Localizer(LocalizerParts& parts) : parts_(&parts) {}
 
-  static constexpr std::uint32_t kFreshPlaces = 16;
-  /// Start poses are assumed right to within this [half diagonals] when a direction is not determined yet.
-  static constexpr double kStartUncertainty = 0.01;
-
-  [[nodiscard]] Status check(const ProbePoint& point) const;
-  [[nodiscard]] bool outside_window(const StoredPoint& point) const;
-  [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const;
-  /// When the foot of a stored point is searched globally, and not only tracked from where it was.
-  enum class Search : std::uint8_t {
-    if_doubtful,  ///< where tracking ends on an edge, on no minimum or averted from the probe
-    past_lead,    ///< there too, and where the point has moved so far that a rival may be nearer; finds a new lead
-    always
-  };
-  [[nodiscard]] Measurement measure(const StoredPoint& point, const Pose& pose, Search search) const;
-  void track(LaneBlock& block, std::span<const std::uint32_t> indices, const Vec6& x) const;
-  [[nodiscard]] Measurement measure(const LaneBlock& block, std::uint32_t lane, Search search) const;
-  void examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const;
-  [[nodiscard]] DistanceRow row_of(const Measurement& m, const Vec6& x) const;
-  void add_row(FitSums& sums, const StoredPoint& point, const Measurement& m, const DistanceRow& row,
-               const Vec6& x) const;
-  [[nodiscard]] bool same_foot(const Vec3& a, const Vec3& b) const;
-  [[nodiscard]] bool weigh_rival(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const;
-  [[nodiscard]] Search sweep_search(const StoredPoint& point) const;
-  [[nodiscard]] StoredPoint made_from(const ProbePoint& point, const SurfacePlace& start) const;
-  void stage(const StoredPoint& passing, Search search);
-  void count_in(const StoredPoint& point, const Measurement& measurement);
-  StoredPoint* store(const StoredPoint& point, const Measurement& measurement);
-  StoredPoint* keep(std::uint32_t index, const StoredPoint& point, const Measurement& measurement);
-  [[nodiscard]] std::uint32_t place_to_give_up();
-  void give_up(std::uint32_t index);
-  void note(StoredPoint& point, const Measurement& measurement);
-  void judge(StoredPoint& point);
-  void count_verdict(const StoredPoint& point, int sign);
-  void include(FitSums& sums, const StoredPoint& point, const Measurement& measurement, const Vec6& x) const;
-  void make_fresh(std::uint32_t index);
-  void settle_one(std::uint32_t place);
-  void settle();
-  void settle_all();
-  void review(std::uint32_t index, const Measurement& measurement);
-  void rejudge(std::uint32_t index);
-  [[nodiscard]] bool contested(const StoredPoint& point) const;
-  void include(FitSums& sums, const StoredPoint& point, const Measurement& measurement) const;
-  void gather(const Measurement& newest);
-  void begin_sweep();
-  void refresh(std::uint32_t budget);
-  double solve();
-  [[nodiscard]] bool visit_next(std::uint32_t count, Status& status);
-  void visit(const Measurement& measurement);
-  [[nodiscard]] bool finish_refine_sweep(Status& status);
-  [[nodiscard]] bool proven_already() const;
-  [[nodiscard]] bool retreat();
-  [[nodiscard]] Status least_squares_step();
-  void begin_loss();
-  [[nodiscard]] bool adapt_loss();
-  [[nodiscard]] double robust_scale() const;
-  [[nodiscard]] FitMode first_stage() const;
-  void begin_bounded(FitMode mode);
-  [[nodiscard]] double bound_weight(const Foot& foot) const;
-  [[nodiscard]] double bound_unit() const;
-  void stop_trackers();
-  [[nodiscard]] double middle_distance(std::uint32_t stride) const;
-  void begin_trackers(std::uint32_t stride);
-  void look_at(std::uint32_t index, const Measurement& m);
-  [[nodiscard]] bool follow(BoundTracker& tracker);
-  void follow_bounds();
-  void tell_bounds();
-  void name_points(Certificate& certificate) const;
-  [[nodiscard]] bool improving() const;
-  [[nodiscard]] Status bounded_step();
-  [[nodiscard]] Status bounded_optimum();
-  void certify();
-  [[nodiscard]] double reach() const { return 0.05 * frame_.length; }  ///< longest step of a program
-  void plan_further_starts();
-  [[nodiscard]] bool begin_further_starts(double own_value);
-  void begin_start();
-  [[nodiscard]] bool visit_from_start(Status& status);
-  void finish_start_sweep();
-  void end_start(double value);
-  [[nodiscard]] bool end_further_starts(Status& status);
-  [[nodiscard]] bool go_back();
-  [[nodiscard]] bool seek_better(double value);
-  [[nodiscard]] bool go_elsewhere();
-  [[nodiscard]] FitMode sought_mode() const;
-  [[nodiscard]] double assign_regions();
-  void include_row(std::uint32_t index, const DistanceRow& row);
-  void find_determined(const Vec6& x);
-  [[nodiscard]] Verdict verdict_from(const StoredPoint& point) const;
-  void queue_revision(std::uint32_t index);
-
-  Surface surface_;
-  LocalizerConfig config_;
-  MotionFrame frame_;
-  Pose pose_;
-  FitSums settled_;  ///< all points but the fresh ones
-  FitSums
-      current_;  ///< those and the fresh ones, whose rows are taken anew in every push: what the pose is solved from
-  FitSums filling_;  ///< by the sweep under way; takes the place of settled_ at its end
-  FitSums frozen_;   ///< points that have no place in memory
-  Determination determination_;
-  Mat6 covariance_ = Mat6::Identity();  ///< of x, for unit variance
-  double sigma_ = 0;
-  Loss loss_ = Loss::none;  ///< in use, with its scale
-  double loss_scale_ = 0;
-  bool concluded_ = false, converged_ = false, redetermine_ = true;
-  Refinement refinement_;
-  BoundedFit bounded_;
-  /// In a stream: the mode's program, and in a constrained fit that of the smallest feasible tolerances.
-  BoundTracker tracker_, least_;
-  std::uint32_t looked_at_ = 0;  ///< points since the programs last moved
-  bool regions_held_ = false;    ///< points keep region and tolerance whatever their feet
-  bool exits_count_ = false;     ///< points that were left out too often stay so
-  bool infeasible_ = false;
-  double tolerance_factor_ = 0, smallest_tolerance_ = 0, stationarity_ = 0;
-  Certificate certificate_;
-  std::uint32_t unproven_ = 0;
-  double last_step_ = 0;
-  std::uint32_t searches_ = 0;
-  std::uint32_t revision_ = 0, accepted_ = 0, rejected_ = 0, last_sequence_ = 0, last_path_ = 0;
-  std::uint32_t judged_out_[2] = {0, 0};
-  SurfacePlace last_place_;
-  bool has_last_ = false;
-  std::uint32_t stored_ = 0, cursor_ = 0, next_given_up_ = 0;
-  std::uint32_t queue_head_ = 0, queue_size_ = 0;
-  /// Indices of the fresh points; the first active_count_ are outside of settled_, the others leave it at the sweep's
-  /// end.
-  std::array<std::uint32_t, kFreshPlaces> fresh_{};
-  std::uint32_t fresh_count_ = 0, active_count_ = 0;
-  StoredPoint* points_ = nullptr;   ///< capacity of them
-  std::uint32_t* order_ = nullptr;  ///< their indices by rising sequence
-  std::uint32_t* queue_ = nullptr;  ///< ring of indices with a changed verdict, each at most once
+  LocalizerParts* parts_;  ///< behind it in the caller's memory
 };
 
 }  // namespace bladefit

@@ -1,26 +1,76 @@
 #pragma once
-#include "core/fit/pose.hpp"
+#include "core/localizer/foot_finder.hpp"
+#include "core/localizer/mode_program.hpp"
 
 namespace bladefit {
 
-/// A search for a better optimum of a mode beside least squares, which has several: the mode's programs start again
-/// from poses about the least-squares optimum, over every `stride`-th point. The search changes neither the pose nor
-/// any stored point; what it finds is made exact over all points.
-struct FurtherStarts {
-  bool active = false, done = false, gone_back = false;
-  Pose centre;                ///< the least-squares optimum
-  Mat6 steps = Mat6::Zero();  ///< columns: from there to a start; as many lie opposite
-  std::uint32_t stride = 1;
-  std::uint32_t start = 0;   ///< under way; 0: from the optimum that the mode has found, for comparison
-  std::uint32_t sweeps = 0;  ///< of this start
-  Pose pose, last_pose;      ///< of this start, and before its last step
-  double found = 0;          ///< value of the optimum that the mode has found, over the points looked at
-  double best = 0;           ///< least value of all
-  Pose best_pose;
-  std::uint32_t same = 0;         ///< starts that came to the best optimum
-  std::uint32_t same_as_own = 0;  ///< starts that came to the one that the mode has found
-  Pose own_pose;                  ///< that optimum, to go back to
-  double own_value = 0;           ///< its value over all points; infinite where there is none
+/// A search for a better optimum of a mode beside least squares, which has several: its program starts again from poses
+/// about the least-squares optimum, over every `stride`-th point. The search changes neither the pose nor any stored
+/// point; what it finds is to be made exact over all points.
+class FurtherStarts {
+ public:
+  enum class Phase : std::uint8_t { waiting, running, done, went_back };
+
+  FurtherStarts(const FitProblem& problem, const ModePlan& plan, const FootFinder& finder,
+                const PointSelection& selection)
+      : problem_(problem), plan_(plan), finder_(finder), selection_(selection) {}
+
+  /// A refinement begins.
+  void restart();
+  /// The search under way, if any, is given up.
+  void interrupt();
+  /// At the least-squares optimum: the starts lie about it along the eigenvectors of its information matrix.
+  void plan(const Pose& centre, const QuadraticModel& model);
+  /// The mode has found an optimum of this value at `own_pose`, or none: infinite.
+  void begin(double own_value, const Pose& own_pose, std::uint32_t points, ModeProgram& program);
+
+  enum class Outcome : std::uint8_t { running, better, not_better };
+  /// Measures the next point of a start's sweep; every foot is searched globally. Cost: some microseconds, and at the
+  /// end of a sweep a step of the program.
+  [[nodiscard]] Outcome advance(PointStore& store, const QuadraticModel& model, ModeProgram& program);
+
+  /// All starts have been made.
+  [[nodiscard]] bool done() const { return phase_ == Phase::done || phase_ == Phase::went_back; }
+  [[nodiscard]] bool found_before() const;
+  [[nodiscard]] double own_value() const { return own_value_; }
+  [[nodiscard]] const Pose& own_pose() const { return own_pose_; }
+  [[nodiscard]] const Pose& best_pose() const { return best_.pose; }
+  /// Over all points the best of the starts is not better than what was found before: that counts again. False where
+  /// that cannot be, or was done before.
+  [[nodiscard]] bool go_back();
+  /// How many of the starts led to the optimum that counts.
+  [[nodiscard]] std::uint32_t same() const { return same_; }
+
+ private:
+  void begin_start(ModeProgram& program);
+  void finish_sweep(const QuadraticModel& model, ModeProgram& program);
+  void end_start(double value, ModeProgram& program);
+
+  /// An optimum over the points that are looked at.
+  struct Found {
+    double value = 0;
+    Pose pose;
+  };
+  /// Of the start under way. Number 0 starts from the optimum that the mode has found, for comparison.
+  struct Start {
+    std::uint32_t number = 0, sweeps = 0, cursor = 0;
+    Pose pose, last_pose;
+  };
+
+  const FitProblem& problem_;
+  const ModePlan& plan_;
+  const FootFinder& finder_;
+  const PointSelection& selection_;
+  Phase phase_ = Phase::waiting;
+  Pose centre_;                ///< the least-squares optimum
+  Mat6 steps_ = Mat6::Zero();  ///< columns: from there to a start; as many lie opposite
+  Pose own_pose_;              ///< of the optimum that the mode has found
+  double own_value_ = 0;       ///< over all points; infinite where there is none
+  double own_found_ = 0;       ///< over the points that are looked at
+  std::uint32_t stride_ = 1, points_ = 0;
+  Start start_;
+  Found best_;
+  std::uint32_t same_ = 0, same_as_own_ = 0;  ///< starts that came to the best optimum, and to the mode's own
 };
 
 }  // namespace bladefit

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 
 #include "core/geometry/nearest/global_projection.hpp"
@@ -9,7 +8,6 @@ namespace bladefit {
 
 /// Stored points that are tracked at once, one a lane, with the rows of those that end on a smooth foot.
 struct LaneBlock {
-  std::array<std::uint32_t, kLanes> index{};  ///< of the stored points
   LaneProjections feet;
   LaneRows rows;
 };
@@ -20,11 +18,11 @@ struct Measurement {
   Foot foot;
   Vec3 r = Vec3::Zero();  ///< the point in design coordinates [mm]
   bool searched = false;  ///< the foot is the outcome of a global search
-  bool changed = false;   ///< of that search, or its rival has become the nearer: not the local minimum tracked
-  bool ranked = false;    ///< `rivals` are those of this place: it was searched, or weighed against its rival
-  Rivals rivals;
+  bool changed = false;   ///< it is not the local minimum that was tracked
+  bool ranked = false;    ///< `runner_up` is that of this place: it was searched, or weighed against its runner-up
+  RunnerUp runner_up;
   bool proven = true;                ///< false: the search met its cap
-  const LaneBlock* block = nullptr;  ///< where its row is at hand, and in which lane
+  const LaneBlock* block = nullptr;  ///< where its row is already computed, and in which lane
   std::uint32_t lane = 0;
 };
 

@@ -44,13 +44,13 @@ bool BoundTracker::violated(double d, double w) const {
 }
 
 /// The place with the most slack that the solution does not rest on.
-std::uint32_t BoundTracker::place_to_give_up() const {
-  const Certificate active = fit_.certificate();
+std::uint32_t BoundTracker::place_to_release() const {
+  const ActiveRows active = fit_.active_rows();
   std::uint32_t best = 0;
   double most_slack = -1.0;
   for (std::uint32_t k = 0; k < count_; ++k) {
-    const auto* end = active.sequence.begin() + active.count;
-    if (std::find(active.sequence.begin(), end, k) != end) continue;
+    const auto* end = active.index.begin() + active.count;
+    if (std::find(active.index.begin(), end, k) != end) continue;
     const double slack = fit_.slack(k);
     if (slack <= most_slack) continue;
     most_slack = slack;
@@ -60,7 +60,7 @@ std::uint32_t BoundTracker::place_to_give_up() const {
 }
 
 void BoundTracker::hold(std::uint32_t point) {
-  const std::uint32_t place = count_ < kPlaces ? count_++ : place_to_give_up();
+  const std::uint32_t place = count_ < kPlaces ? count_++ : place_to_release();
   points_[place] = point;
   fit_.skip_row(place);
   disturb();
@@ -99,9 +99,9 @@ bool BoundTracker::step(const QuadraticModel& model, const MotionFrame& frame, c
   return true;
 }
 
-Certificate BoundTracker::certificate() const {
-  Certificate out = fit_.certificate();
-  for (std::uint32_t k = 0; k < out.count; ++k) out.sequence[k] = points_[out.sequence[k]];
+ActiveRows BoundTracker::active_rows() const {
+  ActiveRows out = fit_.active_rows();
+  for (std::uint32_t k = 0; k < out.count; ++k) out.index[k] = points_[out.index[k]];
   return out;
 }
 

@@ -36,7 +36,7 @@ class BoundTracker {
   [[nodiscard]] bool violated(double d, double w) const;
   /// Takes a point in. Cost: one pass over the places.
   void hold(std::uint32_t point);
-  /// The rows must be taken anew, at pose(), before the next step.
+  /// The rows must be taken again, at pose(), before the next step.
   [[nodiscard]] bool unsettled() const { return unsettled_; }
   void set_row(std::uint32_t place, const DistanceRow& row, double weight, const MotionBasis& basis);
   /// The point does not count.
@@ -51,11 +51,11 @@ class BoundTracker {
 
   /// Of the held points at the rows last set: as BoundedFit::value().
   [[nodiscard]] double value() const { return value_; }
-  /// `sequence` holds the numbers given to hold().
-  [[nodiscard]] Certificate certificate() const;
+  /// What the present solution rests on, by the numbers given to hold().
+  [[nodiscard]] ActiveRows active_rows() const;
 
  private:
-  [[nodiscard]] std::uint32_t place_to_give_up() const;
+  [[nodiscard]] std::uint32_t place_to_release() const;
 
   BoundedFit fit_;
   std::array<double, BoundedFit::kDoublesPerPoint * kPlaces> memory_{};

@@ -33,14 +33,14 @@ void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
   active_ = ActiveSet();
   curvature_.setZero();
   penalty_ = 0;
-  has_last_ = curved_ = false;
+  last_.taken = curved_ = false;
 }
 
 void BoundedFit::resume(std::uint32_t count) {
   count_ = count;
   trust_ = reach_;
   curvature_.setZero();
-  has_last_ = curved_ = false;
+  last_.taken = curved_ = false;
 }
 
 double BoundedFit::set_weight(std::uint32_t i, double weight) {
@@ -202,21 +202,21 @@ ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
 
 /// True where the last step raised the merit: a quarter of it, from where it started.
 bool BoundedFit::retreat(double merit, Step& step) {
-  const bool checked = has_last_ && last_step_.norm() > kCheckedAbove * reach_;
-  if (!checked || merit <= last_merit_ * (1.0 + kMeritRounding)) return false;
-  last_step_ *= 0.25;
-  trust_ = last_step_.lpNorm<Eigen::Infinity>();
+  const bool checked = last_.taken && last_.x.norm() > kCheckedAbove * reach_;
+  if (!checked || merit <= last_.merit * (1.0 + kMeritRounding)) return false;
+  last_.x *= 0.25;
+  trust_ = last_.x.lpNorm<Eigen::Infinity>();
   curved_ = true;
-  step.x = last_step_;
+  step.x = last_.x;
   step.from_last = true;
   return true;
 }
 
 /// Steps whose promise was kept may become longer, others shorter.
 void BoundedFit::adapt_trust(double merit) {
-  if (!has_last_ || mode_ == FitMode::constrained) return;
-  const double kept = last_merit_ - merit, promised = last_merit_ - last_promise_;
-  const double length = last_step_.lpNorm<Eigen::Infinity>();
+  if (!last_.taken || mode_ == FitMode::constrained) return;
+  const double kept = last_.merit - merit, promised = last_.merit - last_.promise;
+  const double length = last_.x.lpNorm<Eigen::Infinity>();
   if (kept > 0.75 * promised) trust_ = std::min(reach_, std::max(trust_, 2.0 * length));
   if (kept >= 0.25 * promised || length <= kCheckedAbove * reach_) return;
   trust_ = 0.5 * length;
@@ -241,19 +241,19 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
     penalty_ = std::max(penalty_, 10.0 * active_.entries[static_cast<std::size_t>(k)].multiplier);
   step.x = basis_.directions * result.x.head<6>();
   step.settled = step.x.norm() <= kSettledBelow * reach_;
-  has_last_ = true;
-  last_merit_ = mode_ == FitMode::constrained ? merit(model) : present;
-  last_promise_ = result.objective;
-  last_step_ = step.x;
+  last_.taken = true;
+  last_.merit = mode_ == FitMode::constrained ? merit(model) : present;
+  last_.promise = result.objective;
+  last_.x = step.x;
   return step;
 }
 
-Certificate BoundedFit::certificate() const {
-  Certificate out;
-  for (int k = 0; k < active_.count && out.count < out.sequence.size(); ++k) {
+ActiveRows BoundedFit::active_rows() const {
+  ActiveRows out;
+  for (int k = 0; k < active_.count && out.count < out.index.size(); ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
     if (entry.index >= static_cast<int>(count_)) continue;  // the bound of a step
-    out.sequence[out.count] = static_cast<std::uint32_t>(entry.index);
+    out.index[out.count] = static_cast<std::uint32_t>(entry.index);
     out.multiplier[out.count] = entry.multiplier;
     out.sign[out.count] = entry.side == Side::upper ? 1 : -1;
     ++out.count;

@@ -2,6 +2,7 @@
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/motion_lock.hpp"
 #include "core/fit/quadratic_model.hpp"
+#include "core/programs/active_rows.hpp"
 #include "core/programs/active_set.hpp"
 
 namespace bladefit {
@@ -56,8 +57,8 @@ class BoundedFit {
   /// How far row i is from its bound, in its own weight; infinite where it does not count.
   [[nodiscard]] double slack(std::uint32_t i) const;
 
-  /// The active points of the last program; `sequence` holds row numbers.
-  [[nodiscard]] Certificate certificate() const;
+  /// The rows that the solution of the last program rests on.
+  [[nodiscard]] ActiveRows active_rows() const;
   /// Of the last program, at the optimum also of the fit: relative stationarity of the Karush-Kuhn-Tucker conditions.
   [[nodiscard]] double stationarity() const { return stationarity_; }
 
@@ -81,10 +82,13 @@ class BoundedFit {
   ActiveSet active_;
   Mat6 curvature_ = Mat6::Zero();  ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points
   double penalty_ = 0;             ///< of a violated tolerance, above the sum of the multipliers
-  bool has_last_ = false;
-  bool curved_ = false;  ///< linear programs have promised too much: their curvature is taken into account
-  double last_merit_ = 0, last_promise_ = 0;  ///< before the last step, and after it by the expansions
-  Vec6 last_step_ = Vec6::Zero();
+  bool curved_ = false;            ///< linear programs have promised too much: their curvature is taken into account
+  struct LastStep {
+    bool taken = false;
+    double merit = 0, promise = 0;  ///< before it, and after it by the expansions
+    Vec6 x = Vec6::Zero();
+  };
+  LastStep last_;
   double stationarity_ = 0;
 };
 

@@ -16,7 +16,7 @@
 #ifdef BLADEFIT_DIGEST_PLAIN
 #include "core/geometry/simd/lanes.hpp"
 // Stands in for that of the core, which the linker then leaves in its archive.
-bool bladefit::lanes_at_hand() { return false; }
+bool bladefit::lanes_available() { return false; }
 #endif
 
 namespace bladefit::testing {

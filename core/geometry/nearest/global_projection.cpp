@@ -73,7 +73,7 @@ GlobalProjection project_global(const Surface& surface, const ProjectionQuery& q
   const ProjectionQuery undirected{query.point, Vec3::Zero(), query.margin};
   GlobalProjection any = search(surface, undirected, hint);
   any.proven = any.proven && !directed.exhausted;
-  if (!any.proven) any.rivals = Rivals();
+  if (!any.proven) any.runner_up = RunnerUp();
   any.pieces += directed.pieces;
   any.faces = false;
   return any;

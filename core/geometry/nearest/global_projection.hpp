@@ -7,26 +7,26 @@ namespace bladefit {
 struct ProjectionQuery {
   Vec3 point = Vec3::Zero();     ///< r, in design coordinates [mm]
   Vec3 approach = Vec3::Zero();  ///< unit vector from the probe to the material, in design coordinates; 0 = unknown
-  double margin = 0;             ///< rivals are sought up to this much farther than the nearest [mm]
+  double margin = 0;             ///< other local minima are looked for up to this much farther than the nearest [mm]
 };
 
-/// The local minima that are hardly farther than the nearest. One that does not face the probe, but almost, is among
-/// them.
-struct Rivals {
-  /// No other is nearer than this much beyond the nearest; at most query.margin [mm]. While the point moves by less
-  /// than half of it, the local minimum it is tracked to stays the nearest.
-  double lead = 0;
-  /// None but the one at `place` is, so one of the two stays the nearest for half of this; at most a quarter of
-  /// query.margin [mm].
-  double lead_of_two = 0;
-  SurfacePlace place;  ///< of the next nearest, where lead < lead_of_two
+/// The next-nearest local minimum, and how much farther it is than the nearest. Minima that do not face the probe, but
+/// almost do, count too.
+struct RunnerUp {
+  /// No other local minimum is within this much beyond the nearest; at most query.margin [mm]. While the point moves by
+  /// less than half of it, the local minimum it is tracked to stays the nearest.
+  double margin = 0;
+  /// Apart from the runner-up none is within this much, so one of the two stays the nearest while the point moves by
+  /// less than half of it; at most a quarter of query.margin [mm].
+  double margin_to_third = 0;
+  SurfacePlace place;  ///< of the runner-up, where margin < margin_to_third
 };
 
 struct GlobalProjection {
   Projection nearest;
   bool proven = false;  ///< false: the cap on pieces was reached; `nearest` is the best found
   bool faces = true;    ///< false: no local minimum faces the probe, so `nearest` is the nearest of all
-  Rivals rivals;
+  RunnerUp runner_up;
   std::uint32_t pieces = 0;  ///< pieces of leaves that were looked at, where their bounds did not suffice
   bool exhausted = false;    ///< a cap was reached
 };

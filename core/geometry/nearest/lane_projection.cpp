@@ -9,7 +9,7 @@ void LaneProjections::enter(const Surface& surface, const Vec3& r, const Surface
   const ImagePatch& patch = surface.patch_of(start.span);
   const SpanDomain d = surface.domain(start.span);
   const bool inside = start.u >= d.u_min && start.u <= d.u_max && start.v >= d.v_min && start.v <= d.v_max;
-  open_[lane] = inside && patch.degree_u == 3 && patch.degree_v == 3 && at_hand_;
+  open_[lane] = inside && patch.degree_u == 3 && patch.degree_v == 3 && available_;
   if (!open_[lane]) return;
   used_ = lane;
   place_[lane] = start;

@@ -10,8 +10,8 @@ namespace bladefit {
 /// Local minima of up to kLanes points, found at once; each the same to the last bit as project_local() finds.
 class LaneProjections {
  public:
-  /// `at_hand`: whether lanes are to be used at all.
-  explicit LaneProjections(bool at_hand = lanes_at_hand()) : at_hand_(at_hand) {}
+  /// `available`: whether lanes are to be used at all.
+  explicit LaneProjections(bool available = lanes_available()) : available_(available) {}
 
   /// Takes in a point, in design coordinates, and the place that its foot is sought from. Lanes are taken in order.
   /// What lanes cannot do, since the place is not in a bicubic span or the processor has none, is left out.
@@ -30,7 +30,7 @@ class LaneProjections {
   [[nodiscard]] const LaneWalk* walk() const { return used_ < kLanes ? &walk_ : nullptr; }
 
  private:
-  bool at_hand_;
+  bool available_;
   std::uint32_t count_ = 0;
   std::uint32_t used_ = kLanes;  ///< a lane in use
   std::array<bool, kLanes> open_{};

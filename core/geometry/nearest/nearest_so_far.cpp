@@ -10,8 +10,8 @@ namespace {
 constexpr double kSlack = 1e-10;
 /// Local minima this near to each other are one [half diagonals].
 constexpr double kSameFoot = 1e-7;
-/// Where a rival is near, so may be a centre of curvature, about which minima are born: the two are relied on for this
-/// share of the margin only.
+/// Where a runner-up is near, so may be a centre of curvature, about which minima are born: the two are relied on for
+/// this share of the margin only.
 constexpr double kShareOfTwo = 0.25;
 
 }  // namespace
@@ -35,31 +35,31 @@ void NearestSoFar::consider(const Projection& candidate) {
     const Vec3 outward = surface_.outward(candidate.place, candidate.at);
     const double facing = outward.dot(approach_);
     if (facing >= 0.0) {
-      if (facing < kAlmostFacing * outward.norm()) note_rival(candidate, distance);
+      if (facing < kAlmostFacing * outward.norm()) note_runner_up(candidate, distance);
       return;
     }
   }
   const bool known = found_ && same(candidate.at.s, nearest_.at.s);
   if (found_ && distance >= distance_) {
-    if (!known) note_rival(candidate, distance);
+    if (!known) note_runner_up(candidate, distance);
     return;
   }
-  if (found_ && !known) note_rival(nearest_, distance_);
+  if (found_ && !known) note_runner_up(nearest_, distance_);
   nearest_ = candidate;
   distance_ = distance;
   found_ = true;
 }
 
-void NearestSoFar::note_rival(const Projection& candidate, double distance) {
-  const bool known = rival_distance_ < kNowhere && same(candidate.at.s, rival_);
-  if (distance >= rival_distance_) {
+void NearestSoFar::note_runner_up(const Projection& candidate, double distance) {
+  const bool known = runner_up_distance_ < kNowhere && same(candidate.at.s, runner_up_);
+  if (distance >= runner_up_distance_) {
     if (!known) third_distance_ = std::min(third_distance_, distance);
     return;
   }
-  if (!known) third_distance_ = rival_distance_;
-  rival_distance_ = distance;
-  rival_ = candidate.at.s;
-  rival_place_ = candidate.place;
+  if (!known) third_distance_ = runner_up_distance_;
+  runner_up_distance_ = distance;
+  runner_up_ = candidate.at.s;
+  runner_up_place_ = candidate.place;
 }
 
 bool NearestSoFar::same(const Vec3& a, const Vec3& b) const {
@@ -71,9 +71,9 @@ GlobalProjection NearestSoFar::result(bool exhausted, std::uint32_t pieces) cons
   out.nearest = !found_ && has_resort_ ? resort_ : nearest_;
   out.proven = found_ && !exhausted;
   if (out.proven) {
-    out.rivals.lead = std::max(0.0, std::min(rival_distance_ - distance_, margin_));
-    out.rivals.lead_of_two = std::max(0.0, std::min(third_distance_ - distance_, kShareOfTwo * margin_));
-    out.rivals.place = rival_place_;
+    out.runner_up.margin = std::max(0.0, std::min(runner_up_distance_ - distance_, margin_));
+    out.runner_up.margin_to_third = std::max(0.0, std::min(third_distance_ - distance_, kShareOfTwo * margin_));
+    out.runner_up.place = runner_up_place_;
   }
   out.pieces = pieces;
   out.exhausted = exhausted;

@@ -5,7 +5,7 @@
 
 namespace bladefit {
 
-/// The nearest of the local minima a global search has met, its nearest rival and the distance of the next.
+/// The nearest of the local minima a global search has met, its runner-up and the distance of the next.
 class NearestSoFar {
  public:
   NearestSoFar(const Surface& surface, const ProjectionQuery& query);
@@ -26,17 +26,17 @@ class NearestSoFar {
   [[nodiscard]] GlobalProjection result(bool exhausted, std::uint32_t pieces) const;
 
  private:
-  void note_rival(const Projection& candidate, double distance);
+  void note_runner_up(const Projection& candidate, double distance);
   [[nodiscard]] bool same(const Vec3& a, const Vec3& b) const;
   static constexpr double kNowhere = std::numeric_limits<double>::infinity();
   const Surface& surface_;
   const Vec3& approach_;
   double margin_, slack_;
   bool directed_, found_ = false, has_resort_ = false;
-  double distance_ = 0.0, rival_distance_ = kNowhere, third_distance_ = kNowhere;
+  double distance_ = 0.0, runner_up_distance_ = kNowhere, third_distance_ = kNowhere;
   Projection nearest_;
-  Vec3 rival_ = Vec3::Zero();  ///< on the surface
-  SurfacePlace rival_place_;
+  Vec3 runner_up_ = Vec3::Zero();  ///< on the surface
+  SurfacePlace runner_up_place_;
   Projection resort_;  ///< the nearest place that is not a proper minimum
 };
 

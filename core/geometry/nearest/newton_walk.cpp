@@ -82,7 +82,7 @@ class NewtonWalk {
   const Surface& surface_;
   const Vec3& r_;
   const ParameterLimits& limits_;
-  bool lanes_ = lanes_at_hand();
+  bool lanes_ = lanes_available();
   SpanTask task_;
   SpanDomain domain_{};
   double per_u_ = 1, per_v_ = 1;

@@ -2,7 +2,7 @@
 
 namespace bladefit {
 
-bool lanes_at_hand() {
+bool lanes_available() {
 #if defined(__x86_64__) && !defined(__clang__)
   return __builtin_cpu_supports("avx2") != 0;
 #else

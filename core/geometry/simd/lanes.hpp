@@ -39,9 +39,8 @@ struct LaneRows {
   bool regular[kLanes];              ///< false: the parametrisation is degenerate there, and there is no normal
 };
 
-/// Whether the processor has the registers that the kernels are compiled for, which is done by GCC: without, there is
-/// nothing to be gained by them.
-[[nodiscard]] bool lanes_at_hand();
+/// True if the processor has AVX2 and the kernels were compiled for it (by GCC only).
+[[nodiscard]] bool lanes_available();
 
 /// Cost: some 40 ns a point from a neighbouring foot.
 void walk_lanes(LaneWalk& walk);

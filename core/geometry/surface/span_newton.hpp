@@ -99,7 +99,7 @@ template <class Evaluate>
 /// Any degrees, on any processor. Cost: some 60 ns a step for a bicubic span.
 [[nodiscard]] SpanEnd newton_in_span(const SpanTask& task, SpanFoot& foot);
 
-/// The same to the last bit for a bicubic span, where lanes_at_hand(). Cost: some 40 ns a step.
+/// The same to the last bit for a bicubic span, where lanes_available(). Cost: some 40 ns a step.
 [[nodiscard]] SpanEnd newton_in_bicubic(const SpanTask& task, SpanFoot& foot);
 
 }  // namespace bladefit

@@ -27,9 +27,9 @@ class Lanes : public ::testing::TestWithParam<std::string> {
   Lanes() : surface_(reference_design(GetParam()).surface()), frame_{surface_.middle(), surface_.half_diagonal()} {}
 
   /// Where there are no lanes every point is left to be sought by itself.
-  void expect_none_found(bool at_hand) const {
+  void expect_none_found(bool available) const {
     const std::vector<Task> all = tasks(1e-5);
-    LaneProjections feet(at_hand);
+    LaneProjections feet(available);
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) feet.enter(surface_, all[lane].r, all[lane].start);
     feet.find(surface_);
     EXPECT_EQ(feet.count(), static_cast<std::uint32_t>(kLanes));
@@ -114,12 +114,12 @@ class Lanes : public ::testing::TestWithParam<std::string> {
 TEST_P(Lanes, NotAtHandFindNothing) { expect_none_found(false); }
 
 TEST_P(Lanes, AreOnePointsBits) {
-  if (!lanes_at_hand()) return expect_none_found(lanes_at_hand());
+  if (!lanes_available()) return expect_none_found(lanes_available());
   EXPECT_GT(compared(1e-5), kPoints * 9 / 10);
 }
 
 TEST_P(Lanes, GiveUpRatherThanLeaveTheSpan) {
-  if (!lanes_at_hand()) return expect_none_found(lanes_at_hand());
+  if (!lanes_available()) return expect_none_found(lanes_available());
   const std::uint32_t count = compared(0.02);
   EXPECT_GT(count, kPoints / 10);
   EXPECT_LT(count, kPoints * 9 / 10);
@@ -127,7 +127,7 @@ TEST_P(Lanes, GiveUpRatherThanLeaveTheSpan) {
 
 /// One point at a time with wide registers, beside the same without: wherever it ends.
 TEST_P(Lanes, OfOnePointAreItsBits) {
-  if (!lanes_at_hand()) return expect_none_found(lanes_at_hand());
+  if (!lanes_available()) return expect_none_found(lanes_available());
   std::array<int, 3> ends{};
   for (const double apart : {1e-5, 0.02}) {
     for (const Task& one : tasks(apart)) {
@@ -158,7 +158,7 @@ TEST_P(Lanes, OfOnePointAreItsBits) {
 
 /// What stands in the other lanes does not matter: nothing, or numbers that are none.
 TEST_P(Lanes, DoNotSeeEachOther) {
-  if (!lanes_at_hand()) return expect_none_found(lanes_at_hand());
+  if (!lanes_available()) return expect_none_found(lanes_available());
   const std::vector<Task> all = tasks(1e-5);
   std::uint32_t compared = 0;
   for (std::size_t k = 0; k + 1 < 100; ++k) {

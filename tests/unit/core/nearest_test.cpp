@@ -139,35 +139,35 @@ TEST_P(NearestPoint, DoesNotDependOnTheHint) {
       if (!hinted.proven || !plain.proven) continue;
       RC_ASSERT(hinted.faces == plain.faces);
       RC_ASSERT(std::abs(hinted.nearest.offset.norm() - plain.nearest.offset.norm()) <= kSame * size_);
-      // Two places may be equally near; then the rival's lead is nothing.
+      // Two places may be equally near; then the margin to the runner-up is nothing.
       if ((hinted.nearest.at.s - plain.nearest.at.s).norm() > 1e-6 * size_) {
-        RC_ASSERT(plain.rivals.lead <= 2.0 * kSame * size_);
+        RC_ASSERT(plain.runner_up.margin <= 2.0 * kSame * size_);
       }
     }
   });
 }
 
-/// The rule by which the localizer tracks feet: moved by less than half its lead, a foot that Newton still reaches and
+/// The rule by which the localizer tracks feet: moved by less than half its margin, a foot that Newton still reaches and
 /// that still faces the probe is the nearest one. Near a centre of curvature a new minimum may be born meanwhile, which
-/// the lead cannot know of; the points are drawn to find such places, and still fewer than one move in a thousand does.
-TEST_P(NearestPoint, LeadKeepsTheTrackedFoot) {
+/// the margin cannot know of; the points are drawn to find such places, and still fewer than one move in a thousand does.
+TEST_P(NearestPoint, MarginKeepsTheTrackedFoot) {
   const double margin = 2e-3 * size_;
   int tracked = 0, wrong = 0, proven = 0, unproven = 0;
-  property("lead", [&](std::mt19937_64& random) {
+  property("margin", [&](std::mt19937_64& random) {
     for (int k = 0; k < 10; ++k) {
       const Vec3 r = random_query_point(surface_, random).r;
       const Vec3 approach = random() % 2 == 0 ? Vec3(Vec3::Zero()) : random_approach(surface_, r, random);
       const GlobalProjection before = nearest(r, approach, margin);
       if (!before.proven) {
-        // A rival within the margin may be as hard to tell as a focal point; then nothing is tracked.
-        RC_ASSERT(before.rivals.lead == 0.0);
+        // A runner-up within the margin may be as hard to tell as a focal point; then nothing is tracked.
+        RC_ASSERT(before.runner_up.margin == 0.0);
         ++unproven;
         continue;
       }
       ++proven;
-      RC_ASSERT((before.rivals.lead >= 0.0 && before.rivals.lead <= margin * (1.0 + 1e-9)));
+      RC_ASSERT((before.runner_up.margin >= 0.0 && before.runner_up.margin <= margin * (1.0 + 1e-9)));
       for (int move = 0; move < 4; ++move) {
-        const Vec3 there = r + uniform(random, 0, 0.4999) * before.rivals.lead * random_direction_in_space(random);
+        const Vec3 there = r + uniform(random, 0, 0.4999) * before.runner_up.margin * random_direction_in_space(random);
         const Projection foot = project_local(surface_, there, before.nearest.place);
         if (!trusted(foot, approach)) continue;
         ++tracked;
@@ -180,23 +180,23 @@ TEST_P(NearestPoint, LeadKeepsTheTrackedFoot) {
   EXPECT_LE(100 * unproven, proven + unproven) << "more than one in a hundred cannot be proven";
 }
 
-/// Moved by less than half the lead of two, the nearer of the tracked foot and its tracked rival is the nearest one.
-/// All these points have a rival, so a centre of curvature may be near, about which a third one may be born.
-TEST_P(NearestPoint, LeadOfTwoKeepsOneOfTheTwo) {
+/// Moved by less than half the margin to the third, the nearer of the tracked foot and its tracked runner-up is the nearest one.
+/// All these points have a runner-up, so a centre of curvature may be near, about which a third one may be born.
+TEST_P(NearestPoint, MarginToThirdKeepsOneOfTheTwo) {
   const double margin = 2e-3 * size_;
   int weighed = 0, swapped = 0, wrong = 0;
-  property("lead of two", [&](std::mt19937_64& random) {
+  property("margin to third", [&](std::mt19937_64& random) {
     const Vec3 r = equally_near_to_two(surface_, random) + 1e-5 * size_ * random_direction_in_space(random);
     const GlobalProjection before = nearest(r, Vec3::Zero(), margin);
-    const Rivals& rivals = before.rivals;
-    RC_ASSERT((rivals.lead_of_two >= 0.0 && rivals.lead_of_two <= 0.25 * margin * (1.0 + 1e-9)));
-    if (rivals.lead >= rivals.lead_of_two) return;
-    const Projection rival = project_local(surface_, r, rivals.place);
-    RC_ASSERT(std::abs(rival.offset.norm() - before.nearest.offset.norm() - rivals.lead) <= kSame * size_);
+    const RunnerUp& runner_up = before.runner_up;
+    RC_ASSERT((runner_up.margin_to_third >= 0.0 && runner_up.margin_to_third <= 0.25 * margin * (1.0 + 1e-9)));
+    if (runner_up.margin >= runner_up.margin_to_third) return;
+    const Projection rival = project_local(surface_, r, runner_up.place);
+    RC_ASSERT(std::abs(rival.offset.norm() - before.nearest.offset.norm() - runner_up.margin) <= kSame * size_);
     for (int move = 0; move < 4; ++move) {
-      const Vec3 there = r + uniform(random, 0, 0.4999) * rivals.lead_of_two * random_direction_in_space(random);
+      const Vec3 there = r + uniform(random, 0, 0.4999) * runner_up.margin_to_third * random_direction_in_space(random);
       const Projection foot = project_local(surface_, there, before.nearest.place);
-      const Projection other = project_local(surface_, there, rivals.place);
+      const Projection other = project_local(surface_, there, runner_up.place);
       if (!foot.converged || !other.converged) continue;
       ++weighed;
       if (other.offset.norm() < foot.offset.norm()) ++swapped;
@@ -204,7 +204,7 @@ TEST_P(NearestPoint, LeadOfTwoKeepsOneOfTheTwo) {
       if (found > nearest(there).nearest.offset.norm() + kSame * size_) ++wrong;
     }
   });
-  std::printf("[ figures  ] %d moves, after %d the rival was the nearer, after %d a third one\n", weighed, swapped,
+  std::printf("[ figures  ] %d moves, after %d the runner-up was the nearer, after %d a third one\n", weighed, swapped,
               wrong);
   EXPECT_GT(swapped, 20);
   EXPECT_LE(100 * wrong, weighed);

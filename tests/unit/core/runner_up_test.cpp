@@ -21,8 +21,8 @@ std::vector<ProbePoint> points_between(const Surface& surface, const Pose& pose,
     const Vec3 place = equally_near_to_two(surface, random);
     const GlobalProjection found =
         project_global(surface, {place, Vec3::Zero(), 1e-3 * surface.half_diagonal()}, nullptr);
-    const Projection rival = project_local(surface, place, found.rivals.place);
-    if (found.rivals.lead >= found.rivals.lead_of_two || !inside(found.nearest) || !inside(rival)) continue;
+    const Projection rival = project_local(surface, place, found.runner_up.place);
+    if (found.runner_up.margin >= found.runner_up.margin_to_third || !inside(found.nearest) || !inside(rival)) continue;
     ProbePoint point;
     point.sequence = first_sequence + static_cast<std::uint32_t>(points.size());
     Eigen::Map<Vec3>(point.position.data()) = pose.rotation.transpose() * (place - pose.translation);
@@ -34,7 +34,7 @@ std::vector<ProbePoint> points_between(const Surface& surface, const Pose& pose,
 
 /// Their foot may jump with every motion of the pose, so their rows are taken anew in every push; a search each time
 /// would take a millisecond at a centre of curvature.
-TEST(Rivals, PointsBetweenTwoFeetAreNotSearchedAnewInEveryPush) {
+TEST(RunnerUp, PointsBetweenTwoFeetAreNotSearchedAgainInEveryPush) {
   const BladeSession s;
   OwnedLocalizer stream(s.design.image(), s.config);
   push_all(*stream, {s.points.begin(), s.points.begin() + kBefore});
@@ -57,8 +57,8 @@ Projection followed(const Surface& surface, const Vec3& r, const Foot& foot) {
 }
 
 /// The feet that a stream keeps are those that a search finds. Their poses are older than that of the search by a few
-/// pushes, in which a rival may have passed; without weighing the two it stays so, for four feet in a hundred.
-TEST(Rivals, PointsBetweenTwoFeetKeepTheNearest) {
+/// pushes, in which a runner-up may have passed; without weighing the two it stays so, for four feet in a hundred.
+TEST(RunnerUp, PointsBetweenTwoFeetKeepTheNearest) {
   const BladeSession s;
   const Surface& surface = s.design.surface();
   OwnedLocalizer stream(s.design.image(), s.config);
@@ -80,7 +80,7 @@ TEST(Rivals, PointsBetweenTwoFeetKeepTheNearest) {
       passed += kept > least + 1e-9 * s.design.size() ? 1 : 0;
     }
   }
-  std::printf("[ figures  ] %u of %u feet had been passed by their rival\n", passed, kAfter * kBetween);
+  std::printf("[ figures  ] %u of %u feet had been passed by their runner-up\n", passed, kAfter * kBetween);
   EXPECT_LE(100 * passed, kAfter * kBetween);
 }
 

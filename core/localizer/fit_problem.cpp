@@ -1,0 +1,45 @@
+#include "core/localizer/fit_problem.hpp"
+
+#include <cmath>
+
+#include "core/fit/motion_lock.hpp"
+#include "core/localizer/tuning.hpp"
+
+namespace bladefit {
+namespace {
+
+bool finite(const std::array<double, 3>& a) {
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
+}  // namespace
+
+FitProblem::FitProblem(const DesignImage& design, const LocalizerConfig& wanted) : surface(design), config(wanted) {
+  frame.pivot = surface.middle();
+  frame.length = surface.half_diagonal();
+  if (config.determined_mm == 0.0) config.determined_mm = 1e-3 * frame.length;
+}
+
+double FitProblem::reach() const { return tuning::kLongestStep * frame.length; }
+
+Pose FitProblem::moved_and_held(const Pose& pose, const Vec6& x) const {
+  return held(moved(pose, x, frame), config.start, config.locked);
+}
+
+Region FitProblem::region_of(const Foot& foot) const { return region_at(config.tolerance, foot.patch, foot.u, foot.v); }
+
+double FitProblem::tolerance_of(const Foot& foot) const {
+  return tolerance_at(config.tolerance, foot.patch, foot.u, foot.v);
+}
+
+Status FitProblem::check(const ProbePoint& point) const {
+  if (!finite(point.position) || !finite(point.approach) || !std::isfinite(point.weight)) return Status::not_finite;
+  const double length = to_vec3(point.approach).norm();
+  const double off = (apply(config.start, to_vec3(point.position)) - frame.pivot).norm();
+  if (off > tuning::kFarthestPoint * frame.length) return Status::out_of_range;
+  if (!(point.weight > 0.0)) return Status::out_of_range;
+  if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > 1e-3)) return Status::out_of_range;
+  return Status::ok;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,30 @@
+#pragma once
+#include "core/fit/motion_frame.hpp"
+#include "core/geometry/surface/surface.hpp"
+#include "core/localizer.hpp"
+
+namespace bladefit {
+
+/// What is fitted to what: constant from create() on. Lengths in mm; [L] are half diagonals of the design.
+struct FitProblem {
+  /// The memory under `design` must outlive it.
+  FitProblem(const DesignImage& design, const LocalizerConfig& wanted);
+
+  /// Longest step of a pose, and of a program [mm].
+  [[nodiscard]] double reach() const;
+  /// `pose` moved by x, with the locked degrees of freedom of the start pose.
+  [[nodiscard]] Pose moved_and_held(const Pose& pose, const Vec6& x) const;
+  [[nodiscard]] Region region_of(const Foot& foot) const;
+  /// [mm]
+  [[nodiscard]] double tolerance_of(const Foot& foot) const;
+  /// Whether a point can be taken in: ok, not_finite or out_of_range. Its sequence is only checked for 0.
+  [[nodiscard]] Status check(const ProbePoint& point) const;
+
+  Surface surface;
+  LocalizerConfig config;  ///< with determined_mm filled in
+  MotionFrame frame;
+};
+
+[[nodiscard]] inline Vec3 to_vec3(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+
+}  // namespace bladefit

@@ -1,0 +1,122 @@
+#include "core/localizer/foot_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bladefit {
+
+Measurement FootFinder::find(const StoredPoint& point, const Pose& pose, Search search) const {
+  Measurement m;
+  m.r = apply(pose, point.position);
+  m.projection = project_local(problem_.surface, m.r, {point.span, point.foot.u, point.foot.v});
+  examine(point, pose, search, m);
+  m.foot = foot_of(problem_.surface, m.projection, problem_.config.probe_radius_mm);
+  return m;
+}
+
+/// Tracks points at the pose. Cost: some 60 ns a point; nothing where the processor has no wide registers.
+void FootFinder::track(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
+                       LaneBlock& block) const {
+  for (const std::uint32_t index : indices) {
+    const StoredPoint& point = store[index];
+    block.feet.enter(problem_.surface, apply(pose, point.position), {point.span, point.foot.u, point.foot.v});
+  }
+  block.feet.find(problem_.surface);
+  const LaneWalk* walk = block.feet.walk();
+  if (walk == nullptr) return;
+  const MotionFrame& frame = problem_.frame;
+  const LaneFrame lane_frame{{frame.pivot[0], frame.pivot[1], frame.pivot[2]},
+                             frame.length,
+                             {x[0], x[1], x[2], x[3], x[4], x[5]},
+                             static_cast<double>(problem_.surface.image().header().outward),
+                             problem_.config.probe_radius_mm};
+  take_rows(*walk, lane_frame, block.rows);
+}
+
+/// What find() gives, to the last bit, from the lane in which the point was tracked.
+Measurement FootFinder::find_tracked(const StoredPoint& point, const Pose& pose, Search search, const LaneBlock& block,
+                                     std::uint32_t lane) const {
+  if (!block.feet.found(lane) || !block.rows.regular[lane]) return find(point, pose, search);
+  Measurement m;
+  m.r = block.feet.point(lane);
+  m.projection = block.feet.projection(lane);
+  examine(point, pose, search, m);
+  const SurfacePlace &own = block.feet.place(lane), &found = m.projection.place;
+  if (found.span != own.span || found.u != own.u || found.v != own.v) {
+    m.foot = foot_of(problem_.surface, m.projection, problem_.config.probe_radius_mm);
+    return m;
+  }
+  m.foot = {problem_.surface.span(own.span).patch,
+            own.u,
+            own.v,
+            m.projection.at.s,
+            lane_of(block.rows.normal, lane),
+            block.rows.distance[lane],
+            FootKind::interior};
+  m.block = &block;
+  m.lane = lane;
+  return m;
+}
+
+DistanceRow FootFinder::row(const Measurement& m, const Vec6& x) const {
+  if (m.block == nullptr) return distance_row(m.projection, m.foot, m.r, x, problem_.frame);
+  DistanceRow row;
+  row.distance = m.foot.distance;
+  for (int k = 0; k < 6; ++k) row.gradient[k] = m.block->rows.gradient[k][m.lane];
+  int entry = 0;
+  for (int j = 0; j < 6; ++j) {
+    for (int i = 0; i <= j; ++i, ++entry) row.bend(i, j) = row.bend(j, i) = m.block->rows.bend[entry][m.lane];
+  }
+  return row;
+}
+
+/// Whether the projection that a point was tracked to is its nearest: where that is in doubt, the design is searched.
+void FootFinder::examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const {
+  const Surface& surface = problem_.surface;
+  ProjectionQuery query{m.r, pose.rotation * point.approach};
+  const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
+                        !faces_probe(surface, m.projection, query.approach);
+  // Distances change by no more than the point moves, so within half its margin no local minimum that was there can
+  // have come nearer than the tracked foot. A newborn one could: refine() ends with a search of every foot.
+  const bool far = search == Search::past_margin && 2.0 * (m.r - point.ranked_at).norm() >= point.runner_up.margin;
+  const bool known = !doubtful && (!far || weigh_runner_up(point, query, m));
+  if (known && search != Search::always) return;
+  if (search == Search::past_margin) query.margin = tuning::kSearchMargin * problem_.frame.length;
+  const GlobalProjection global = project_global(surface, query, &m.projection);
+  // Newton's method does not end on a crease of the surface: there it is the foot of before that is found again.
+  const Vec3& before = m.projection.converged ? m.projection.at.s : point.foot.point;
+  m.changed = !same_foot(global.nearest.at.s, before);
+  m.projection = global.nearest;
+  m.searched = m.ranked = true;
+  m.runner_up = global.runner_up;
+  m.proven = global.proven;
+}
+
+bool FootFinder::same_foot(const Vec3& a, const Vec3& b) const {
+  return (a - b).norm() <= tuning::kSameFoot * problem_.frame.length;
+}
+
+/// Makes the nearer of the tracked foot and its tracked runner-up the projection, as long as no third can be nearer.
+/// False where that cannot be told.
+bool FootFinder::weigh_runner_up(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const {
+  const double margin_to_third = point.runner_up.margin_to_third - 2.0 * (m.r - point.ranked_at).norm();
+  if (!(margin_to_third > 0.0)) return false;
+  const Projection other = project_local(problem_.surface, m.r, point.runner_up.place);
+  if (!other.converged) return false;
+  double margin = other.offset.norm() - m.projection.offset.norm();
+  SurfacePlace place = other.place;
+  if (same_foot(other.at.s, m.projection.at.s)) {
+    margin = margin_to_third;  // the two have become one
+  } else if (margin < 0.0 && faces_probe(problem_.surface, other, query.approach)) {
+    if (other.fixed_u || other.fixed_v) return false;
+    margin = -margin;
+    place = m.projection.place;
+    m.projection = other;
+    m.changed = true;
+  }
+  m.ranked = true;
+  m.runner_up = {std::clamp(margin, 0.0, margin_to_third), margin_to_third, place};
+  return true;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,64 @@
+#pragma once
+#include "core/localizer/fit_problem.hpp"
+#include "core/localizer/point_store.hpp"
+#include "core/programs/active_rows.hpp"
+
+namespace bladefit {
+
+/// What a mode is. One row a mode stands in mode_plan.cpp.
+struct ModeRow {
+  FitMode mode;
+  FitMode first;   ///< the program that follows the least-squares fit
+  FitMode sought;  ///< the program that further starts are made with
+  enum class Then : std::uint8_t { ends, always, if_feasible } then;  ///< when the program `mode` follows the first one
+  /// How points are compared when a stream's program is begun: by |d|, by |d| over the bound, or by how far they are
+  /// from the middle of all distances.
+  enum class Seeds : std::uint8_t { by_distance, by_bound, by_range } seeds;
+  bool has_value;           ///< its optimum is a length
+  bool has_certificate;     ///< that the points of the certificate prove
+  bool value_is_tolerance;  ///< and it is the smallest feasible tolerance of the leading edge
+};
+
+[[nodiscard]] const ModeRow& mode_row(FitMode mode);
+
+/// The mode of a fit, and the bounds that its programs set the distances.
+class ModePlan {
+ public:
+  explicit ModePlan(const FitProblem& problem);
+
+  /// Whether programs follow the least-squares fit.
+  [[nodiscard]] bool bounded() const { return row_.mode != FitMode::least_squares; }
+  [[nodiscard]] const ModeRow& row() const { return row_; }
+  /// Whether the bounds are wanted ones, so that they may be infeasible.
+  [[nodiscard]] bool may_be_infeasible() const { return row_.then == ModeRow::Then::if_feasible; }
+  /// Whether the program `mode` follows after the first one has found this value.
+  [[nodiscard]] bool goes_on(double value) const;
+
+  /// w of a foot: its tolerance [mm] in a constrained fit; else 1 at the leading edge and the ratio elsewhere. 0: its
+  /// distance has no bound.
+  [[nodiscard]] double weight(const Foot& foot) const;
+  /// What a value of the programs is a multiple of [mm].
+  [[nodiscard]] double unit() const { return unit_; }
+
+ private:
+  const ModeRow& row_;
+  ToleranceMap bounds_;
+  double unit_ = 1.0;
+};
+
+/// What is known of the mode's optimum. Lengths in mm.
+struct ModeOptimum {
+  double value = 0;               ///< 0 until known
+  double smallest_tolerance = 0;  ///< smallest feasible tolerance of the leading edge; 0 until known
+  double stationarity = 0;
+  Certificate certificate;
+  bool infeasible = false;  ///< proven: no pose meets the tolerances
+
+  /// Takes over what the program of a row has found: only what such a program has.
+  void take(const ModeRow& program, double found, const Certificate& proof);
+};
+
+/// The certificate of rows that are points of the store, named by their sequences; multipliers are per `unit` mm.
+[[nodiscard]] Certificate certificate_of(const ActiveRows& rows, const PointStore& store, double unit);
+
+}  // namespace bladefit

@@ -1,0 +1,44 @@
+#include "core/localizer/mode_program.hpp"
+
+#include <algorithm>
+
+namespace bladefit {
+
+void ModeProgram::set_pose(const Pose& pose) {
+  fit_.set_basis(free_motions(pose, problem_.config.locked, problem_.frame));
+}
+
+void ModeProgram::set_row(std::uint32_t index, const DistanceRow& row) {
+  if (fit_.weight(index) == 0.0) {
+    fit_.skip_row(index);
+  } else {
+    fit_.set_row(index, row);
+  }
+}
+
+void ModeProgram::tell(const PointStore& store, ModeOptimum& optimum) const {
+  const ModeRow& program = mode_row(fit_.mode());
+  optimum.take(program, fit_.value() * plan_.unit(), certificate_of(fit_.active_rows(), store, plan_.unit()));
+}
+
+double ModeProgram::assign_regions(PointStore& store, VerdictBook& verdicts) {
+  double change = 0.0;
+  for (std::uint32_t i = 0; i < store.size(); ++i) {
+    const double weight = plan_.weight(store[i].foot);
+    // A foot on the border of a region may be drawn over it by one bound and back by the other: it keeps the tighter.
+    const double kept = fit_.weight(i);
+    const bool looser = weight == 0.0 || weight > kept;
+    if (region_rounds_ >= tuning::kFreeRegionRounds && kept > 0.0 && looser) continue;
+    verdicts.assign_region(store[i]);
+    change = std::max(change, fit_.set_weight(i, weight));
+  }
+  return change;
+}
+
+ModeProgram::Regions ModeProgram::follow_feet(PointStore& store, VerdictBook& verdicts) {
+  if (problem_.config.regions == RegionPolicy::fixed) return Regions::at_rest;
+  if (assign_regions(store, verdicts) <= tuning::kWeightsAtRest) return Regions::at_rest;
+  return ++region_rounds_ >= tuning::kRegionRounds ? Regions::restless : Regions::changed;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,30 @@
+#include "core/localizer/point_selection.hpp"
+
+namespace bladefit {
+
+void PointSelection::by_exits(PointStore& store) {
+  rule_ = Rule::by_exits;
+  for (std::uint32_t i = 0; i < store.size(); ++i) store[i].exits = 0;
+}
+
+void PointSelection::hold(PointStore& store) {
+  for (std::uint32_t i = 0; i < store.size(); ++i) store[i].held_out = left_out(store[i], store[i].foot);
+  rule_ = Rule::held;
+}
+
+bool PointSelection::left_out(const StoredPoint& point, const Foot& foot) const {
+  if (rule_ == Rule::held) return point.held_out;
+  return point.outside_window || (rule_ == Rule::by_exits && point.exits >= tuning::kMostExits) ||
+         (foot.kind != FootKind::interior && problem_.config.edges == EdgePolicy::skip);
+}
+
+Region PointSelection::region(const StoredPoint& point, const Foot& foot) const {
+  return rule_ == Rule::held ? point.region : problem_.region_of(foot);
+}
+
+void PointSelection::note_exit(StoredPoint& point, const Foot& next) const {
+  const bool exits = !left_out(point, point.foot) && left_out(point, next);
+  if (exits && point.exits < UINT8_MAX) ++point.exits;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,35 @@
+#pragma once
+#include "core/localizer/fit_problem.hpp"
+#include "core/localizer/point_store.hpp"
+
+namespace bladefit {
+
+/// Which points count in the fit, and to which region they belong.
+class PointSelection {
+ public:
+  /// by_foot: as the present foot says. by_exits: so too, but a point that was left out too often stays out.
+  /// held: as it was when hold() was called, wherever the feet go.
+  enum class Rule : std::uint8_t { by_foot, by_exits, held };
+
+  explicit PointSelection(const FitProblem& problem) : problem_(problem) {}
+
+  void by_foot() { rule_ = Rule::by_foot; }
+  /// Begins to count how often points leave. Cost: linear.
+  void by_exits(PointStore& store);
+  /// Which points count is settled by the least-squares fit: none escapes its bound over an edge. Cost: linear.
+  void hold(PointStore& store);
+  [[nodiscard]] bool held() const { return rule_ == Rule::held; }
+
+  /// Whether the point, with this foot, does not count.
+  [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const;
+  /// Region of the point with this foot.
+  [[nodiscard]] Region region(const StoredPoint& point, const Foot& foot) const;
+  /// Counts an exit where the point leaves with its next foot. Called before that is recorded.
+  void note_exit(StoredPoint& point, const Foot& next) const;
+
+ private:
+  const FitProblem& problem_;
+  Rule rule_ = Rule::by_foot;
+};
+
+}  // namespace bladefit

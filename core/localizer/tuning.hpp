@@ -1,0 +1,97 @@
+#pragma once
+#include <cstdint>
+
+namespace bladefit::tuning {
+
+// Every number of the localizer that was chosen and not derived. Lengths marked [L] are in half diagonals of the
+// design.
+
+// Points
+/// [L] Points farther from the middle of the design than this are not of this blade.
+inline constexpr double kFarthestPoint = 1e3;
+/// A point may be drawn over an edge where it counts, and back where it does not. Left out so often in one refinement,
+/// it stays out.
+inline constexpr std::uint8_t kMostExits = 4;
+/// Points whose rows are taken again in every push: the newest ones, and contested ones as far as there is room.
+inline constexpr std::uint32_t kRecentPlaces = 16, kNewestRecent = 4;
+/// [L] Contested is a point with another local minimum that is farther by less than this: a small motion of the pose
+/// can move its foot to the other side of an edge, which no expansion foretells.
+inline constexpr double kContestedMargin = 3e-4;
+/// Stored points looked at for one whose place a point of the leading edge may take.
+inline constexpr std::uint32_t kEvictionLooks = 64;
+
+// Feet
+/// [L] Other local minima are looked for up to this much farther, so that a foot can be tracked for half as long.
+inline constexpr double kSearchMargin = 2e-3;
+/// [L] Feet this near to each other are one.
+inline constexpr double kSameFoot = 1e-8;
+
+// Pose
+/// [L] A pose moves no farther than this in one step: what lies beyond is no small motion.
+inline constexpr double kLongestStep = 0.05;
+/// Directions below this share of the trace of the information matrix are rounding.
+inline constexpr double kNumericalRank = 1e-13;
+/// [L] Start poses are assumed right to within this when a direction is not determined yet.
+inline constexpr double kStartUncertainty = 0.01;
+/// [L] While the pose has moved farther than this since the sums in use were begun, their expansions are stale, and a
+/// push refreshes so many times the points.
+inline constexpr double kStaleBeyond = 5e-4;
+inline constexpr std::uint32_t kCatchUp = 8;
+
+// Verdicts
+/// [L] A distance above its tolerance by no more than this is in: a constrained optimum touches its bounds.
+inline constexpr double kTouchingBound = 1e-11;
+/// A verdict is pending while what is not determined may change the distance by more than this share of the tolerance.
+inline constexpr double kPendingShare = 0.1;
+/// Fewer fitted points than this hide their own errors: every verdict is pending.
+inline constexpr std::uint32_t kLeastJudged = 12;
+
+// Scale of a robust loss
+/// Standard deviation of normal errors over the median of their size.
+inline constexpr double kMedianToScale = 1.4826;
+/// Halvings of the interval that holds the median: to a billionth of the largest distance.
+inline constexpr int kMedianHalvings = 30;
+/// A scale that changes by less than this share is at rest; before the last stage, by less than the second.
+inline constexpr double kScaleAtRest = 1e-6, kScaleNearRest = 1e-2;
+/// Times that the scale is estimated again.
+inline constexpr std::uint32_t kScaleRounds = 30;
+
+// Refinement
+inline constexpr std::uint32_t kRefineSweeps = 100;
+/// [L] A step longer than the first must lower the sum of squares; one shorter than the second means convergence.
+inline constexpr double kCheckedAbove = 1e-6, kConvergedBelow = 1e-12;
+/// [L] While the pose travels farther than this between two sweeps, feet are searched again: tracked ones would be left
+/// on the wrong side of thin places, and the fit led to another optimum.
+inline constexpr double kTravelsBeyond = 1e-3;
+/// [L] While it travels no farther than this, which is how exact a search is, feet need no other one.
+inline constexpr double kSearchHolds = 1e-10;
+
+// Modes beside least squares
+/// Times that regions follow the feet at most: then they do not come to rest. So many times they do so freely; after
+/// that tolerances only become tighter.
+inline constexpr std::uint32_t kRegionRounds = 20, kFreeRegionRounds = 3;
+/// Weights that change by less than this share are at rest.
+inline constexpr double kWeightsAtRest = 1e-10;
+/// A smallest feasible tolerance above the wanted one by no more than this share meets it: at an optimum over all
+/// points, and in a stream.
+inline constexpr double kFeasible = 1e-12, kFeasibleInStream = 1e-9;
+/// Steps of a program in one push: each takes the rows of its points again.
+inline constexpr int kProgramStepsPerPush = 2;
+/// Fewer fitted points than this do not begin a program: its solution would follow their noise.
+inline constexpr std::uint32_t kLeastForProgram = 12;
+/// Points looked at for the first ones of a program in a stream.
+inline constexpr std::uint32_t kSeedPoints = 512;
+/// [L] A pose that moves by less than this does not make what was looked at before uncertain.
+inline constexpr double kPoseAtRest = 1e-7;
+
+// Further starts
+/// A start looks at every point where there are no more than these, and else at every second, third...
+inline constexpr std::uint32_t kStartPoints = 512;
+/// How far off a start lies: distances change by this many times their root mean square.
+inline constexpr double kStartDistance = 1.5;
+/// Sweeps of one start: six to ten are usual.
+inline constexpr std::uint32_t kStartSweeps = 30;
+/// Values that differ by less than this share are the same optimum.
+inline constexpr double kSameOptimum = 1e-7;
+
+}  // namespace bladefit::tuning

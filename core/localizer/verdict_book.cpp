@@ -1,0 +1,98 @@
+#include "core/localizer/verdict_book.hpp"
+
+#include <cmath>
+
+namespace bladefit {
+
+void VerdictBook::attach(std::uint32_t* ring, std::uint32_t capacity) {
+  ring_ = ring;
+  capacity_ = capacity;
+}
+
+void VerdictBook::clear() {
+  head_ = size_ = rejected_ = 0;
+  out_ = {};
+}
+
+void VerdictBook::count(const StoredPoint& point, int sign) {
+  const auto one = static_cast<std::uint32_t>(sign);
+  if (point.state == PointState::out) out_[static_cast<std::size_t>(point.region)] += one;
+  if (point.state == PointState::rejected) rejected_ += one;
+}
+
+void VerdictBook::assign_region(StoredPoint& point) {
+  count(point, -1);
+  point.region = problem_.region_of(point.foot);
+  point.tolerance = problem_.tolerance_of(point.foot);
+  count(point, +1);
+}
+
+void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
+  if (point.tolerance != 0.0) count(point, -1);
+  const Foot& foot = point.foot;
+  if (!selection_.held()) {
+    point.region = problem_.region_of(foot);
+    point.tolerance = problem_.tolerance_of(foot);
+  }
+  const PoseEstimate::DistanceUncertainty uncertainty = evidence.estimate.uncertainty_of(point.position, foot);
+  point.uncertainty = uncertainty.standard;
+  const double pending_above =
+      tuning::kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : problem_.config.determined_mm);
+  point.action = Action::none;
+  if (selection_.left_out(point, foot)) {
+    point.state = PointState::rejected;
+  } else if (uncertainty.undetermined > pending_above || !evidence.enough) {
+    point.state = PointState::pending;
+  } else if (std::abs(foot.distance) > point.tolerance + tuning::kTouchingBound * problem_.frame.length) {
+    point.state = PointState::out;
+    point.action = foot.distance > 0.0 ? Action::cut : Action::weld;
+  } else {
+    point.state = PointState::in;
+  }
+  count(point, +1);
+}
+
+void VerdictBook::judge_new(StoredPoint& point, const Evidence& evidence) {
+  judge(point, evidence);
+  point.reported_state = point.state;
+  point.reported_action = point.action;
+}
+
+void VerdictBook::judge_again(PointStore& store, std::uint32_t index, const Evidence& evidence) {
+  StoredPoint& point = store[index];
+  judge(point, evidence);
+  if (point.queued || (point.state == point.reported_state && point.action == point.reported_action)) return;
+  point.queued = true;
+  ring_[(head_ + size_) % capacity_] = index;
+  ++size_;
+}
+
+bool VerdictBook::next_revision(PointStore& store, Verdict& verdict) {
+  while (size_ > 0) {
+    StoredPoint& point = store[ring_[head_]];
+    head_ = (head_ + 1) % capacity_;
+    --size_;
+    point.queued = false;
+    if (point.state == point.reported_state && point.action == point.reported_action) continue;  // changed back
+    point.reported_state = point.state;
+    point.reported_action = point.action;
+    verdict = verdict_of(point);
+    return true;
+  }
+  return false;
+}
+
+Verdict verdict_of(const StoredPoint& point) {
+  Verdict verdict;
+  verdict.sequence = point.sequence;
+  verdict.foot = point.foot;
+  verdict.region = point.region;
+  verdict.tolerance_mm = point.tolerance;
+  verdict.uncertainty_mm = point.uncertainty;
+  verdict.state = point.state;
+  verdict.action = point.action;
+  verdict.revision = point.revision;
+  return verdict;
+}
+
+}  // namespace bladefit
