@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 
+#include "core/localizer/fit_report.hpp"
 #include "core/localizer/localizer_parts.hpp"
 
 namespace bladefit {
@@ -62,27 +63,6 @@ Status check(const LocalizerParts& p, const ProbePoint& point) {
   return point.sequence <= p.stream.last_sequence ? Status::duplicate : Status::ok;
 }
 
-bool outside_window(const LocalizerParts& p, const StoredPoint& point) {
-  const LocalizerConfig& config = p.problem.config;
-  if (config.window_low <= 0.0 && config.window_high >= 1.0) return false;
-  const Foot foot = p.finder.find(point, config.start, Search::always).foot;
-  const auto outside = [&config](double t) { return t < config.window_low || t > config.window_high; };
-  return outside(foot.u) || outside(foot.v);
-}
-
-StoredPoint made_from(const LocalizerParts& p, const ProbePoint& point, const SurfacePlace& start) {
-  StoredPoint stored;
-  stored.position = to_vec3(point.position);
-  if (p.problem.config.use_approach) stored.approach = to_vec3(point.approach);
-  stored.sequence = point.sequence;
-  stored.weight = point.weight;
-  stored.span = start.span;
-  stored.foot.u = start.u;
-  stored.foot.v = start.v;
-  stored.outside_window = outside_window(p, stored);
-  return stored;
-}
-
 /// A point has come: what was found over those before it is open again.
 void reopen(LocalizerParts& p) {
   p.refinement.interrupt();
@@ -98,7 +78,7 @@ void count_in(LocalizerParts& p, const StoredPoint& point, const Measurement& m)
 
 /// Gives the point a place in memory, where there is none that of another one if it is of the leading edge. Returns its
 /// index; size() of the store where it found none.
-std::uint32_t store(LocalizerParts& p, const StoredPoint& point, const Measurement& m) {
+std::uint32_t take_in(LocalizerParts& p, const StoredPoint& point, const Measurement& m) {
   count_in(p, point, m);
   std::uint32_t index = p.store.size();
   if (!p.store.full()) {
@@ -143,43 +123,6 @@ void stage_made(LocalizerParts& p, const StoredPoint& made, Search search) {
   p.store.record(own, m, p.estimate.revision());
   p.sums.take_in_staged(own, m, p.estimate.pose());
   p.verdicts.judge_new(own, evidence_of(p));
-}
-
-bool on_design(const Surface& surface, const SurfacePlace& place) {
-  const bool inside = place.u >= 0.0 && place.u <= 1.0 && place.v >= 0.0 && place.v <= 1.0;
-  return inside && place.span < surface.image().spans().size();
-}
-
-RegionReport region_report(const RegionSums& sums, std::uint32_t judged_out) {
-  RegionReport report;
-  report.count = sums.count;
-  report.judged_out = judged_out;
-  report.rms_mm = sums.count > 0 ? std::sqrt(sums.square / sums.count) : 0.0;
-  report.worst_mm = sums.worst;
-  report.worst_sequence = sums.worst_sequence;
-  return report;
-}
-
-void report_estimate(const LocalizerParts& p, FitReport& report) {
-  const PoseEstimate& estimate = p.estimate;
-  const QuadraticModel& model = p.sums.model();
-  report.pose = estimate.pose();
-  report.determined = estimate.determination().rank;
-  report.smallest_eigenvalue = estimate.determination().smallest;
-  report.gradient = estimate.last_step();
-  report.revision = estimate.revision();
-  report.fitted = model.count;
-  const double square = 2.0 * model.value_at(motion_between(model.reference, estimate.pose(), p.problem.frame));
-  const std::uint32_t unknowns = 6 - estimate.determination().locked;
-  const bool robust = p.loss.robust();
-  if (model.weight > 0.0) report.rms_mm = std::sqrt(square / model.weight);
-  if (robust) report.loss_scale_mm = p.loss.scale();
-  if (model.count > unknowns) report.sigma_mm = robust ? p.loss.scale() : std::sqrt(square / (model.count - unknowns));
-  if (!estimate.determined()) return;
-  const double variance = report.sigma_mm * report.sigma_mm;
-  report.covariance = pose_covariance(variance * estimate.covariance(), estimate.pose(), p.problem.frame);
-  const bool converged = p.refinement.phase() == RefinementPhase::done;
-  report.status = p.optimum.infeasible ? FitStatus::infeasible : converged ? FitStatus::converged : FitStatus::tracking;
 }
 
 }  // namespace
@@ -236,9 +179,9 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   p.stream.concluded = false;
   reopen(p);
 
-  StoredPoint passing = made_from(p, point, p.stream.last_place);
+  StoredPoint passing = p.finder.new_point(point, p.stream.last_place);
   const Measurement measured = p.finder.find(passing, p.estimate.pose(), Search::past_margin);
-  const std::uint32_t index = store(p, passing, measured);
+  const std::uint32_t index = take_in(p, passing, measured);
   const bool stored = index < p.store.size();
   StoredPoint& own = stored ? p.store[index] : passing;
 
@@ -271,15 +214,15 @@ Status Localizer::stage(const ProbePoint& point) {
   LocalizerParts& p = *parts_;
   if (const Status status = check(p, point); status != Status::ok) return status;
   if (p.store.full()) return Status::out_of_range;
-  stage_made(p, made_from(p, point, p.stream.last_place), Search::always);
+  stage_made(p, p.finder.new_point(point, p.stream.last_place), Search::always);
   return Status::ok;
 }
 
 Status Localizer::stage_from(const ProbePoint& point, const SurfacePlace& start) {
   LocalizerParts& p = *parts_;
   if (const Status status = check(p, point); status != Status::ok) return status;
-  if (p.store.full() || !on_design(p.problem.surface, start)) return Status::out_of_range;
-  StoredPoint made = made_from(p, point, start);
+  if (p.store.full() || !p.problem.on_design(start)) return Status::out_of_range;
+  StoredPoint made = p.finder.new_point(point, start);
   made.runner_up.margin = std::numeric_limits<double>::infinity();  // no motion makes the foot doubtful
   stage_made(p, made, Search::if_doubtful);
   return Status::ok;
@@ -319,28 +262,6 @@ Status Localizer::verdict_of(std::uint32_t sequence, Verdict& verdict) const {
   return Status::ok;
 }
 
-FitReport Localizer::fit() const {
-  const LocalizerParts& p = *parts_;
-  FitReport report;
-  report_estimate(p, report);
-  report.points = p.stream.accepted;
-  report.rejected = p.verdicts.rejected();
-  report.memory_full = p.stream.accepted > p.store.size();
-  const bool converged = p.refinement.phase() == RefinementPhase::done;
-  report.improving = p.plan.bounded() && !converged && p.stream_optimum.improving(p.store);
-  report.tolerance_factor_mm = p.optimum.value;
-  report.smallest_tolerance_mm = p.optimum.smallest_tolerance;
-  report.certificate = p.optimum.certificate;
-  report.stationarity = p.optimum.stationarity;
-  if (p.refinement.further_starts().done()) {
-    report.further_starts = p.problem.config.further_starts;
-    report.same_optimum = p.refinement.further_starts().same();
-  }
-  report.unproven = p.refinement.unproven();
-  report.searches = p.store.searches();
-  report.rest = region_report(p.sums.region(Region::rest), p.verdicts.out(Region::rest));
-  report.leading_edge = region_report(p.sums.region(Region::leading_edge), p.verdicts.out(Region::leading_edge));
-  return report;
-}
+FitReport Localizer::fit() const { return report_of(*parts_); }
 
 }  // namespace bladefit

@@ -15,37 +15,40 @@
 
 namespace bladefit {
 
+/// Whether points whose foot is on an edge or a corner count in the fit.
 enum class EdgePolicy : std::uint8_t { skip = 0, use = 1 };
-/// Which foot says to which region a point belongs in the modes beside least squares.
-enum class RegionPolicy : std::uint8_t { follow = 0, fixed = 1 };  ///< the present one; that of the least-squares fit
+/// follow: region of the current foot. fixed: region assigned at the least-squares solution. (All modes except least
+/// squares.)
+enum class RegionPolicy : std::uint8_t { follow = 0, fixed = 1 };
 
 struct LocalizerConfig {
-  /// Points that keep a place, where their feet follow the pose. Beyond it points are judged and counted, and their
-  /// rows stay in the sums as they were; a point of the leading edge takes the place of an older one of the rest.
+  /// Points that are stored, so that their feet follow the pose. Further points are judged and counted, and their rows
+  /// stay in the sums as they were; a point of the leading edge takes the place of an older one of the rest.
   std::uint32_t capacity = 65536;
-  std::uint32_t refresh_per_push = 8;   ///< K: stored points projected anew in each push (2..64)
-  double probe_radius_mm = 0;           ///< points are centres of a ball of this radius
-  bool use_approach = true;             ///< approach vectors choose the side of the blade
-  EdgePolicy edges = EdgePolicy::skip;  ///< whether feet on edges and corners count in the fit
-  double noise_floor_mm = 0.005;  ///< least standard deviation assumed of a distance when judging what is determined
-  double determined_mm = 0;       ///< largest standard uncertainty of a determined direction, at the design's half
-                                  ///< diagonal; 0 = a thousandth of the half diagonal
-  Pose start;                     ///< where the fit starts
-  double window_low = 0;          ///< points whose foot at the start pose has u or v below this are rejected
-  double window_high = 1;         ///< or above this (thesis 7: 0.05 and 0.95)
+  std::uint32_t refresh_per_push = 8;  ///< K: stored points projected again in each push (2..64)
+  double probe_radius_mm = 0;          ///< points are centres of a ball of this radius
+  bool use_approach = true;            ///< approach vectors choose the side of the blade
+  EdgePolicy edges = EdgePolicy::skip;
+  double noise_floor_mm = 0.005;  ///< least standard deviation of a distance assumed in judging what is determined
+  /// Largest standard uncertainty of a determined direction, at the half diagonal of the design; 0 = a thousandth of
+  /// the half diagonal.
+  double determined_mm = 0;
+  Pose start;              ///< where the fit starts
+  double window_low = 0;   ///< points whose foot at the start pose has u or v below this are rejected
+  double window_high = 1;  ///< or above this (thesis 7: 0.05 and 0.95)
   ToleranceMap tolerance;
   /// While points come in, the pose is that of the mode over the points looked at so far, once all six degrees of
   /// freedom are determined; refine() makes it the optimum over all.
   FitMode mode = FitMode::least_squares;
-  double ratio = 10;  ///< min_tolerance: tolerance elsewhere / that at the leading edge
+  double ratio = 10;  ///< min_tolerance: tolerance of the rest / that of the leading edge
   RegionPolicy regions = RegionPolicy::follow;
   std::uint8_t locked = 0;  ///< degrees of freedom that keep their value of the start pose: bits of motion_lock.hpp
   /// Robust loss of a least-squares fit. Pushes are without it while loss_scale_mm is 0: then refine() finds the scale,
   /// 1.4826 times the median distance at the optimum.
   Loss loss = Loss::none;
   double loss_scale_mm = 0;  ///< standard deviation of good points
-  /// Modes beside least squares have several optima. Once they have found one, and no more points come, they start
-  /// so many times again from elsewhere (0..12) and keep the best.
+  /// Number of additional starting poses (0..12) that modes beside least squares try once the stream is concluded; the
+  /// best optimum is kept.
   std::uint32_t further_starts = 12;
 };
 
@@ -71,8 +74,9 @@ struct FitReport {
   std::uint32_t rejected = 0;
   /// sqrt(sum w d^2 / sum w); with a loss, of 2 w rho(d) and its weights
   double rms_mm = 0;
-  double sigma_mm =
-      0;  ///< of a distance of weight 1: sqrt(sum w d^2 / (fitted - free)), with a loss its scale; 0 below 7 points
+  /// Standard deviation of a distance of weight 1: sqrt(sum w d^2 / (fitted - free)), with a loss its scale; 0 below 7
+  /// points.
+  double sigma_mm = 0;
   double loss_scale_mm = 0;        ///< of the robust loss in use; 0: none
   double smallest_eigenvalue = 0;  ///< of the scaled information matrix per point (dimensionless)
   double gradient = 0;             ///< size of the last Newton step [mm at the design's half diagonal]: the self check
@@ -88,8 +92,8 @@ struct FitReport {
   double stationarity = 0;  ///< of its Karush-Kuhn-Tucker conditions, relative: the self check of the mode
   std::uint32_t further_starts = 0;  ///< from how many other poses the optimum was sought again
   std::uint32_t same_optimum = 0;    ///< how many of these led to the same one; the others to worse ones
-  std::uint32_t unproven =
-      0;  ///< feet whose search met its cap in the last sweep of refine(): then it is not converged
+  /// Feet whose search met its cap in the last sweep of refine(): then it is not converged.
+  std::uint32_t unproven = 0;
   std::uint32_t searches = 0;  ///< global searches for the feet of stored points so far, those for a window left out
   std::uint32_t revision = 0;  ///< +1 whenever the pose moves
   bool memory_full = false;
@@ -130,18 +134,20 @@ class Localizer {
   /// Takes the next verdict that a later fit has changed. False when there is none.
   [[nodiscard]] bool next_revision(Verdict& verdict);
 
-  /// Projects up to `max_points` stored points anew and moves the pose, until it stands still and every foot has
-  /// been searched globally there, to within how exact a search is, and no other found. Returns ok (converged),
-  /// underdetermined (converged in the determined directions), more_work, or iteration_cap.
+  /// Projects up to `max_points` stored points again and moves the pose, until it stands still and a global search of
+  /// every foot there has found no other. Returns ok (converged), underdetermined (converged in the determined
+  /// directions), more_work (call again), or iteration_cap (the report says how far it came).
   [[nodiscard]] Status refine(std::uint32_t max_points);
 
-  /// No more points will come: from here on refine() uses every direction the points determine at all, however weakly.
-  /// The next push() takes it back. Cost: constant.
+  /// Marks the stream as complete: refine() then solves for every direction that the data constrain, however weakly.
+  /// The next push() reopens the stream. Cost: constant.
   void conclude();
 
+  /// The fit as it stands. Cost: constant.
   [[nodiscard]] FitReport fit() const;
 
-  /// The present verdict of a point. Returns ok or not_found (unknown sequence, or its place was given away).
+  /// The present verdict of a point. Returns ok or not_found (unknown sequence, or it lost its place). Cost:
+  /// logarithmic.
   [[nodiscard]] Status verdict_of(std::uint32_t sequence, Verdict& verdict) const;
 
   /// Forgets all points and goes back to the start pose.

@@ -6,8 +6,8 @@ namespace bladefit {
 /// How a distance counts in a least-squares fit.
 enum class Loss : std::uint8_t {
   none = 0,   ///< 1/2 d^2
-  huber = 1,  ///< |d| beyond 1.345 scales: an aberrant point pulls no harder than that
-  tukey = 2   ///< constant beyond 4.685 scales: an aberrant point does not pull at all
+  huber = 1,  ///< |d| beyond 1.345 scales: an outlier pulls no harder than that
+  tukey = 2   ///< constant beyond 4.685 scales: an outlier does not pull at all
 };
 
 /// One distance in the sum, with the derivatives that Newton's method needs.

@@ -19,7 +19,7 @@ struct ToleranceMap {
   std::array<ParameterBox, kMaxBoxes> boxes{};  ///< the leading-edge region is their union
   std::uint32_t box_count = 0;
   double leading_edge_mm = std::numeric_limits<double>::infinity();  ///< |d| allowed inside; infinity = not judged
-  double rest_mm = std::numeric_limits<double>::infinity();          ///< |d| allowed elsewhere
+  double rest_mm = std::numeric_limits<double>::infinity();          ///< |d| allowed on the rest
   double transition = 0;  ///< width, in parameter units, over which the tolerance rises linearly outside a box
 };
 

@@ -42,4 +42,9 @@ Status FitProblem::check(const ProbePoint& point) const {
   return Status::ok;
 }
 
+bool FitProblem::on_design(const SurfacePlace& place) const {
+  const bool inside = place.u >= 0.0 && place.u <= 1.0 && place.v >= 0.0 && place.v <= 1.0;
+  return inside && place.span < surface.image().spans().size();
+}
+
 }  // namespace bladefit

@@ -19,6 +19,7 @@ struct FitProblem {
   [[nodiscard]] double tolerance_of(const Foot& foot) const;
   /// Whether a point can be taken in: ok, not_finite or out_of_range. Its sequence is only checked for 0.
   [[nodiscard]] Status check(const ProbePoint& point) const;
+  [[nodiscard]] bool on_design(const SurfacePlace& place) const;
 
   Surface surface;
   LocalizerConfig config;  ///< with determined_mm filled in

@@ -5,6 +5,27 @@
 
 namespace bladefit {
 
+StoredPoint FootFinder::new_point(const ProbePoint& point, const SurfacePlace& start) const {
+  StoredPoint made;
+  made.position = to_vec3(point.position);
+  if (problem_.config.use_approach) made.approach = to_vec3(point.approach);
+  made.sequence = point.sequence;
+  made.weight = point.weight;
+  made.span = start.span;
+  made.foot.u = start.u;
+  made.foot.v = start.v;
+  made.outside_window = outside_window(made);
+  return made;
+}
+
+bool FootFinder::outside_window(const StoredPoint& point) const {
+  const LocalizerConfig& config = problem_.config;
+  if (config.window_low <= 0.0 && config.window_high >= 1.0) return false;
+  const Foot foot = find(point, config.start, Search::always).foot;
+  const auto outside = [&config](double t) { return t < config.window_low || t > config.window_high; };
+  return outside(foot.u) || outside(foot.v);
+}
+
 Measurement FootFinder::find(const StoredPoint& point, const Pose& pose, Search search) const {
   Measurement m;
   m.r = apply(pose, point.position);
@@ -97,7 +118,7 @@ bool FootFinder::same_foot(const Vec3& a, const Vec3& b) const {
 }
 
 /// Makes the nearer of the tracked foot and its tracked runner-up the projection, as long as no third can be nearer.
-/// False where that cannot be told.
+/// False where that is uncertain.
 bool FootFinder::weigh_runner_up(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const {
   const double margin_to_third = point.runner_up.margin_to_third - 2.0 * (m.r - point.ranked_at).norm();
   if (!(margin_to_third > 0.0)) return false;

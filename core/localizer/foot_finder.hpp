@@ -20,6 +20,9 @@ class FootFinder {
  public:
   explicit FootFinder(const FitProblem& problem) : problem_(problem) {}
 
+  /// A point as it comes, with the place that its foot is sought from. With a window its foot at the start pose is
+  /// searched.
+  [[nodiscard]] StoredPoint new_point(const ProbePoint& point, const SurfacePlace& start) const;
   /// Cost: some 150 ns where the foot is tracked, some microseconds where it is searched.
   [[nodiscard]] Measurement find(const StoredPoint& point, const Pose& pose, Search search) const;
   /// Measures stored points, several at once where the processor can, to the same bits as find(). Rows are taken `x`
@@ -32,6 +35,7 @@ class FootFinder {
   [[nodiscard]] DistanceRow row(const Measurement& m, const Vec6& x) const;
 
  private:
+  [[nodiscard]] bool outside_window(const StoredPoint& point) const;
   void track(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
              LaneBlock& block) const;
   [[nodiscard]] Measurement find_tracked(const StoredPoint& point, const Pose& pose, Search search,

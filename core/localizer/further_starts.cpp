@@ -21,11 +21,11 @@ void FurtherStarts::interrupt() {
   if (phase_ == Phase::running) phase_ = Phase::waiting;
 }
 
-bool FurtherStarts::found_before() const { return own_value_ < kInfinity; }
+bool FurtherStarts::found_before() const { return own_.value < kInfinity; }
 
 void FurtherStarts::plan(const Pose& centre, const QuadraticModel& model) {
   centre_ = centre;
-  own_value_ = kInfinity;
+  own_.value = kInfinity;
   const SymmetricEigen eigen = symmetric_eigen(model.gauss);
   for (int k = 0; k < 6; ++k) {
     const double length = tuning::kStartDistance * std::sqrt(2.0 * model.half_square / eigen.values[k]);
@@ -35,20 +35,20 @@ void FurtherStarts::plan(const Pose& centre, const QuadraticModel& model) {
 
 void FurtherStarts::begin(double own_value, const Pose& own_pose, std::uint32_t points, ModeProgram& program) {
   phase_ = Phase::running;
-  own_pose_ = own_pose;
-  own_value_ = own_value;
+  own_.pose = own_pose;
+  own_.value = own_value;
   points_ = points;
   stride_ = 1 + (points - 1) / tuning::kStartPoints;
   const bool compared = stride_ == 1 || own_value == kInfinity;
   best_.value = compared ? own_value : kInfinity;
-  own_found_ = best_.value;
+  own_.found = best_.value;
   start_.number = compared ? 1 : 0;
   for (std::uint32_t i = 0; i < points; ++i) program.skip_row(i);
   begin_start(program);
 }
 
 void FurtherStarts::begin_start(ModeProgram& program) {
-  start_.pose = own_pose_;
+  start_.pose = own_.pose;
   if (start_.number > 0) {
     const Vec6 step = steps_.col((start_.number - 1) / 2);
     start_.pose = problem_.moved_and_held(centre_, start_.number % 2 == 1 ? step : Vec6(-step));
@@ -71,7 +71,7 @@ FurtherStarts::Outcome FurtherStarts::advance(PointStore& store, const Quadratic
   if (start_.cursor < points_) return Outcome::running;
   finish_sweep(model, program);
   if (phase_ == Phase::running) return Outcome::running;
-  return best_.value < own_found_ * (1.0 - tuning::kSameOptimum) ? Outcome::better : Outcome::not_better;
+  return best_.value < own_.found * (1.0 - tuning::kSameOptimum) ? Outcome::better : Outcome::not_better;
 }
 
 void FurtherStarts::finish_sweep(const QuadraticModel& model, ModeProgram& program) {
@@ -86,10 +86,10 @@ void FurtherStarts::finish_sweep(const QuadraticModel& model, ModeProgram& progr
 
 /// The start under way has led to an optimum of this value; infinite: to none.
 void FurtherStarts::end_start(double value, ModeProgram& program) {
-  if (start_.number == 0) own_found_ = value;
+  if (start_.number == 0) own_.found = value;
   const auto same_as = [value](double other) { return std::abs(value - other) <= tuning::kSameOptimum * other; };
   if (start_.number > 0 && same_as(best_.value)) ++same_;
-  if (start_.number > 0 && same_as(own_found_)) ++same_as_own_;
+  if (start_.number > 0 && same_as(own_.found)) ++same_as_own_;
   if (value < best_.value * (1.0 - tuning::kSameOptimum)) {
     same_ = start_.number > 0 ? 1 : 0;
     best_ = {value, start_.pose};

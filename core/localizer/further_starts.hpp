@@ -32,8 +32,8 @@ class FurtherStarts {
   /// All starts have been made.
   [[nodiscard]] bool done() const { return phase_ == Phase::done || phase_ == Phase::went_back; }
   [[nodiscard]] bool found_before() const;
-  [[nodiscard]] double own_value() const { return own_value_; }
-  [[nodiscard]] const Pose& own_pose() const { return own_pose_; }
+  [[nodiscard]] double own_value() const { return own_.value; }
+  [[nodiscard]] const Pose& own_pose() const { return own_.pose; }
   [[nodiscard]] const Pose& best_pose() const { return best_.pose; }
   /// Over all points the best of the starts is not better than what was found before: that counts again. False where
   /// that cannot be, or was done before.
@@ -46,6 +46,12 @@ class FurtherStarts {
   void finish_sweep(const QuadraticModel& model, ModeProgram& program);
   void end_start(double value, ModeProgram& program);
 
+  /// The optimum that the mode has found. Its value over all points, infinite where there is none, and over those that
+  /// are looked at.
+  struct Own {
+    Pose pose;
+    double value = 0, found = 0;
+  };
   /// An optimum over the points that are looked at.
   struct Found {
     double value = 0;
@@ -64,9 +70,7 @@ class FurtherStarts {
   Phase phase_ = Phase::waiting;
   Pose centre_;                ///< the least-squares optimum
   Mat6 steps_ = Mat6::Zero();  ///< columns: from there to a start; as many lie opposite
-  Pose own_pose_;              ///< of the optimum that the mode has found
-  double own_value_ = 0;       ///< over all points; infinite where there is none
-  double own_found_ = 0;       ///< over the points that are looked at
+  Own own_;
   std::uint32_t stride_ = 1, points_ = 0;
   Start start_;
   Found best_;

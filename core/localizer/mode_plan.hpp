@@ -34,7 +34,7 @@ class ModePlan {
   /// Whether the program `mode` follows after the first one has found this value.
   [[nodiscard]] bool goes_on(double value) const;
 
-  /// w of a foot: its tolerance [mm] in a constrained fit; else 1 at the leading edge and the ratio elsewhere. 0: its
+  /// w of a foot: its tolerance [mm] in a constrained fit; else 1 at the leading edge and the ratio on the rest. 0: its
   /// distance has no bound.
   [[nodiscard]] double weight(const Foot& foot) const;
   /// What a value of the programs is a multiple of [mm].

@@ -16,7 +16,7 @@ void ModeProgram::set_row(std::uint32_t index, const DistanceRow& row) {
   }
 }
 
-void ModeProgram::tell(const PointStore& store, ModeOptimum& optimum) const {
+void ModeProgram::report(const PointStore& store, ModeOptimum& optimum) const {
   const ModeRow& program = mode_row(fit_.mode());
   optimum.take(program, fit_.value() * plan_.unit(), certificate_of(fit_.active_rows(), store, plan_.unit()));
 }

@@ -31,8 +31,8 @@ class ModeProgram {
   [[nodiscard]] double stationarity() const { return fit_.stationarity(); }
   /// In its own unit, at the present rows.
   [[nodiscard]] double value() const { return fit_.value(); }
-  /// Takes over what the program has found, with the points that prove it.
-  void tell(const PointStore& store, ModeOptimum& optimum) const;
+  /// Writes what the program has found, with the points that prove it.
+  void report(const PointStore& store, ModeOptimum& optimum) const;
 
   /// Weights and regions of all points from their present feet. Returns the largest relative change of a weight.
   double assign_regions(PointStore& store, VerdictBook& verdicts);

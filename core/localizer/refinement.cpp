@@ -41,7 +41,7 @@ void Refinement::begin(bool concluded, ModeOptimum& optimum) {
   loss_.restart();
   program_.restart();
   starts_.restart();
-  optimum = ModeOptimum();  // what was found before is not told beside what may fail to be found
+  optimum = ModeOptimum();  // an earlier optimum is not reported beside a failed search
   estimate_.redetermine();
   sums_.settle_all(store_, estimate_);
   sweep_.restart(estimate_.pose());
@@ -205,7 +205,7 @@ Status Refinement::program_optimum(const Call& call) {
     return Status::more_work;
   }
   optimum.infeasible = !last;
-  program_.tell(store_, optimum);
+  program_.report(store_, optimum);
   return program.has_value && seek_better(value, call.concluded) ? Status::more_work : Status::ok;
 }
 
@@ -216,13 +216,13 @@ bool Refinement::begin_starts(double own_value, bool concluded) {
   return true;
 }
 
-/// An optimum over all points has been found. True: the fit goes on elsewhere.
+/// An optimum over all points has been found. True: the fit goes on from another pose.
 bool Refinement::seek_better(double value, bool concluded) {
   if (!starts_.done()) return begin_starts(value, concluded);
   return value > starts_.own_value() * (1.0 + tuning::kSameOptimum) && go_back();
 }
 
-/// A program has failed. True: the fit goes on elsewhere.
+/// A program has failed. True: the fit goes on from another pose.
 bool Refinement::go_elsewhere(bool concluded) {
   if (phase_ != Phase::mode || !mode_row(program_.mode()).has_value) return false;
   return starts_.done() ? go_back() : begin_starts(std::numeric_limits<double>::infinity(), concluded);

@@ -8,7 +8,7 @@
 namespace bladefit {
 
 /// The fit over all stored points, in sweeps that can be cut into pieces: to the least-squares optimum, from there by
-/// the mode's programs to its optimum, and from elsewhere to a better one. It moves the pose and changes the stored
+/// the mode's programs to its optimum, and from other poses to a better one. It moves the pose and changes the stored
 /// points.
 class Refinement {
  public:

@@ -8,7 +8,7 @@ enum class RefinementPhase : std::uint8_t {
   idle,            ///< not begun, interrupted by a point, or given up
   least_squares,   ///< sweeps move the pose to the least-squares optimum
   mode,            ///< the mode's programs move it on
-  further_starts,  ///< a better optimum is sought from elsewhere
+  further_starts,  ///< a better optimum is sought from other poses
   done             ///< converged: nothing to do until a point comes
 };
 

@@ -11,7 +11,7 @@ struct Evidence {
   bool enough;  ///< points to judge any
 };
 
-/// Judges points, counts the verdicts, and keeps those that have changed since the caller was told.
+/// Judges points, counts the verdicts, and keeps those that have changed since they were reported.
 class VerdictBook {
  public:
   VerdictBook(const FitProblem& problem, const PointSelection& selection) : problem_(problem), selection_(selection) {}

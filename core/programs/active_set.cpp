@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/algebra/cholesky.hpp"
+#include "core/programs/kkt_residuals.hpp"
 #include "core/programs/working_set.hpp"
 
 namespace bladefit {
@@ -133,7 +134,7 @@ class Solver {
       const Status status = work_off();
       waiting_.count = 0;
       if (status != Status::ok) return status;
-      // What a fresh pass found and is in the working set already, is violated by rounding.
+      // What a new pass found and is in the working set already, is violated by rounding.
       if (changes_ == before && !stale) return Status::ok;
     }
   }

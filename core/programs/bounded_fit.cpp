@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/algebra/cholesky.hpp"
+#include "core/programs/kkt_residuals.hpp"
 
 namespace bladefit {
 namespace {

@@ -1,7 +1,7 @@
+#include "core/programs/kkt_residuals.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "core/programs/active_set.hpp"
 
 namespace bladefit {
 namespace {

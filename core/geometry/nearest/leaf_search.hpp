@@ -5,7 +5,7 @@ namespace bladefit {
 
 /// Outcome of the search of one leaf.
 struct LeafOutcome {
-  std::uint32_t pieces = 0;  ///< cut and looked at; 0 where the leaf's bounds told everything
+  std::uint32_t pieces = 0;  ///< cut and looked at; 0 where the leaf's bounds sufficed
   bool exhausted = false;    ///< `budget` or the smallest piece was reached: something may have been missed
 };
 

@@ -77,7 +77,7 @@ struct ImageBounds {
   double self_high[7];
 };
 
-/// A rectangle of a span, so small that its bounds tell most. The leaves of a span tile it.
+/// A rectangle of a span, so small that its bounds are tight. The leaves of a span tile it.
 struct ImageLeaf {
   std::uint32_t span;
   std::uint32_t node;                 ///< index of the node that it is a child of

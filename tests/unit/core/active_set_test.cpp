@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/programs/kkt_residuals.hpp"
 #include "tests/unit/core/programs.hpp"
 
 namespace bladefit::testing {
