@@ -49,7 +49,7 @@ logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get -q "$@" 2>&1 </dev/null; }
 
-# progress: what apt-get install writes, in a line for every 40 packages. Says nothing until the first package is there.
+# progress: what apt-get install writes, in a line for every 20 packages. Says nothing until the first package is there.
 progress() {
   local line kind size=""
   declare -A said=([Get]="fetched" [Unpacking]="unpacked" [Setting]="set up") count=()
@@ -60,7 +60,7 @@ progress() {
       "Get:"* | "Unpacking "* | "Setting up "*)
         [[ ${#count[@]} -gt 0 ]] || echo "Installing ${#missing[@]} packages and what they need: ${missing[*]}. $size"
         count[$kind]=$((${count[$kind]:-0} + 1))
-        ((count[$kind] % 40)) || echo "  ${count[$kind]} ${said[$kind]}"
+        ((count[$kind] % 20)) || echo "  ${count[$kind]} ${said[$kind]}"
         ;;
     esac
   done
