@@ -4,23 +4,27 @@
 # points a second, with some leading-edge defects to be flagged, and the report of it.
 #   tools/demo.sh            over Modbus TCP
 #   tools/demo.sh --serial   over a serial line (pseudo terminal)
+# Exit codes: 0 done; 1 it does not build, or the answer is not that of the independent solution; 2 wrong use; 3 a package
+# cannot be installed, or the simulated machine does not start.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$(readlink -f "$0")")/.."
 
 transport=modbus-tcp
 case "${1:-}" in
   "") ;;
   --serial) transport=serial ;;
   *)
-    sed -n '2,6s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,8s/^# \{0,1\}//p' tools/demo.sh >&2
     exit 2
     ;;
 esac
 
-say() { printf '\n\033[1m%s\033[0m\n' "$*"; }
+# Bold where somebody looks.
+say() { if [[ -t 1 ]]; then printf '\n\033[1m%s\033[0m\n' "$*"; else printf '\n%s\n' "$*"; fi; }
 
 say "1. Install and build"
 ./tools/install.sh
+echo "Configuring and building; the first time this takes some minutes"
 cmake --preset release >/dev/null
 cmake --build --preset release --target bladefit_command
 
@@ -51,7 +55,7 @@ echo "Written: $out/points.csv (points 811 to 816: 0.31 mm too much; 1312 to 131
 
 say "5. Live session over $transport at 200 points a second"
 simulator=""
-trap '[[ -z "$simulator" ]] || kill "$simulator" 2>/dev/null || true' EXIT
+trap '[[ -z "$simulator" ]] || { kill "$simulator" && wait "$simulator"; } 2>/dev/null || true' EXIT
 "$bladefit" simulate --design "$data/design.igs" --points "$out/points.csv" --transport "$transport" --rate 200 \
   $([[ $transport == serial ]] && echo --device "$out/machine" || echo --port 0) >"$out/simulate.log" 2>&1 &
 simulator=$!
