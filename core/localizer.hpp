@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/fit/loss.hpp"
+#include "core/fit/point_policy.hpp"
 #include "core/fit/pose.hpp"
 #include "core/fit/pose_solver.hpp"
 #include "core/geometry/surface/design_image.hpp"
@@ -18,10 +19,6 @@
 #include "core/status.hpp"
 
 namespace bladefit {
-
-enum class EdgePolicy : std::uint8_t { skip = 0, use = 1 };
-/// Which foot says to which region a point belongs in the modes beside least squares.
-enum class RegionPolicy : std::uint8_t { follow = 0, fixed = 1 };  ///< the present one; that of the least-squares fit
 
 struct LocalizerConfig {
   /// Points that keep a place, where their feet follow the pose. Beyond it points are judged and counted, and their
