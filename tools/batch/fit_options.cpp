@@ -64,7 +64,8 @@ void plan_tolerance(const FitSettings& settings, FitPlan& plan) {
   if (settings.rest_tolerance) map.rest_mm = positive(*settings.rest_tolerance, "--rest-tolerance") * plan.mm_per_unit;
   plan.localizer.ratio = ratio;
   // The tolerances give the ratio of min_tolerance where it is not given itself.
-  if (settings.tolerance && settings.rest_tolerance && !settings.ratio) {
+  const bool wanted = plan.localizer.mode == FitMode::min_tolerance;
+  if (wanted && settings.tolerance && settings.rest_tolerance && !settings.ratio) {
     plan.localizer.ratio = map.rest_mm / map.leading_edge_mm;
   }
   map.transition = settings.transition.value_or(0.0);
