@@ -9,22 +9,37 @@
 
 #include "config/fit_table.hpp"
 #include "config/table_reader.hpp"
+#include "core/localizer/check_config.hpp"
 #include "drivers/source_uri.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr double kMostPoints = 16777216;
 constexpr double kLongestIdle = 1e6;  ///< [s]
 
-/// A source URI. What stands behind the first colon is a path, but in modbus-tcp://HOST:PORT.
+/// Whether what stands behind the first colon of a source URI is a path. The compiler asks for every new protocol.
+bool names_a_path(SourceKind kind) {
+  switch (kind) {
+    case SourceKind::modbus_rtu:
+    case SourceKind::serial:
+    case SourceKind::dro:
+    case SourceKind::replay:
+      return true;
+    case SourceKind::none:
+    case SourceKind::modbus_tcp:
+      return false;
+  }
+  return false;
+}
+
+/// A source URI; a relative path in it is taken from the folder of the file.
 void read_source(TableReader& table, std::optional<std::string>& source) {
   if (!table.has("source")) return;
   table.read("source", source);
   if (!table.good()) return;
   SourceSettings scratch;
   if (const std::string error = apply_source_uri(*source, scratch); !error.empty()) return table.fail("source", error);
-  if (scratch.kind == SourceKind::modbus_tcp) return;
+  if (!names_a_path(scratch.kind)) return;
   const std::size_t path = source->find(':') + 1;
   source = source->substr(0, path) + table.from_folder(source->substr(path));
 }
@@ -65,7 +80,7 @@ ConfigError load_session(const std::string& path, SessionSettings& settings) {
   root.read("until_idle", read.until_idle, NumberRange{1e-3, kLongestIdle});
   if (root.has("capacity")) {
     std::uint32_t capacity = 0;
-    root.read_whole("capacity", capacity, {6, kMostPoints});
+    root.read_whole("capacity", capacity, {kLeastCapacity, kMostCapacity});
     read.capacity = capacity;
   }
   root.read("headless", read.headless);

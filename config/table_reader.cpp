@@ -115,19 +115,25 @@ bool TableReader::read_text(std::string_view key, std::string& value) {
   return false;
 }
 
-bool TableReader::read_number(std::string_view key, double& value, NumberRange range, bool whole) {
+/// Of the type, whatever its size.
+bool TableReader::take_number(std::string_view key, double& number, bool whole) {
   const toml::node* node = find(key);
   if (node == nullptr) return false;
-  const char* wanted = whole ? "a whole number" : "a number";
-  double number = 0;
   if (node->is_integer()) {
     number = static_cast<double>(node->as_integer()->get());
   } else if (node->is_floating_point() && !whole) {
     number = node->as_floating_point()->get();
   } else {
-    fail(key, fmt::format("must be {}, not {}", wanted, type_name(*node)));
+    fail(key, fmt::format("must be {}, not {}", whole ? "a whole number" : "a number", type_name(*node)));
     return false;
   }
+  return true;
+}
+
+bool TableReader::read_number(std::string_view key, double& value, NumberRange range, bool whole) {
+  double number = 0;
+  if (!take_number(key, number, whole)) return false;
+  const char* wanted = whole ? "a whole number" : "a number";
   if (!(number >= range.low && number <= range.high)) {
     if (range.high > 1e300) {
       fail(key, fmt::format("{} is out of range; it must be {} of at least {}", number, wanted, range.low));
@@ -159,6 +165,11 @@ void TableReader::read(std::string_view key, std::vector<std::string>& value) {
     texts.push_back(item.as_string()->get());
   }
   value = std::move(texts);
+}
+
+void TableReader::read(std::string_view key, double& value) {
+  double number = 0;
+  if (take_number(key, number, false)) value = number;
 }
 
 void TableReader::read(std::string_view key, double& value, NumberRange range) {

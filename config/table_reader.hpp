@@ -38,6 +38,7 @@ class TableReader {
   void read(std::string_view key, bool& value);
   void read(std::string_view key, std::string& value);
   void read(std::string_view key, std::vector<std::string>& value);
+  void read(std::string_view key, double& value);  ///< whatever number
   void read(std::string_view key, double& value, NumberRange range);
 
   /// A whole number within the range.
@@ -108,6 +109,7 @@ class TableReader {
  private:
   [[nodiscard]] const toml::node* find(std::string_view key);
   [[nodiscard]] bool read_text(std::string_view key, std::string& value);
+  [[nodiscard]] bool take_number(std::string_view key, double& number, bool whole);
   [[nodiscard]] bool read_number(std::string_view key, double& value, NumberRange range, bool whole);
   [[nodiscard]] std::string full_name(std::string_view key) const;
 

@@ -1,11 +1,10 @@
 #include "core/localizer.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <new>
 
+#include "core/localizer/check_config.hpp"
 #include "core/localizer/fit_report.hpp"
 #include "core/localizer/localizer_parts.hpp"
 
@@ -25,33 +24,6 @@ Object* placed(std::byte*& place, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) new (first + k) Object();
   place += rounded_up(sizeof(Object) * count);
   return first;
-}
-
-bool tolerances_valid(const ToleranceMap& map, std::size_t patches) {
-  const bool numbers =
-      map.leading_edge_mm > 0.0 && map.rest_mm > 0.0 && std::isfinite(map.transition) && map.transition >= 0.0;
-  if (!numbers || map.box_count > ToleranceMap::kMaxBoxes) return false;
-  return std::all_of(map.boxes.begin(), map.boxes.begin() + map.box_count, [patches](const ParameterBox& b) {
-    return b.patch < patches && b.u_min <= b.u_max && b.v_min <= b.v_max;
-  });
-}
-
-bool pose_valid(const Pose& pose) {
-  const Mat3 product = pose.rotation.transpose() * pose.rotation - Mat3::Identity();
-  return product.cwiseAbs().maxCoeff() < 1e-9 && pose.rotation.determinant() > 0.0 && pose.translation.allFinite();
-}
-
-bool config_valid(const LocalizerConfig& c, std::size_t patches) {
-  const bool sizes = c.capacity >= 6 && c.refresh_per_push >= 2 && c.refresh_per_push <= 64;
-  const bool lengths = std::isfinite(c.probe_radius_mm) && c.probe_radius_mm >= 0.0 && c.noise_floor_mm > 0.0 &&
-                       std::isfinite(c.noise_floor_mm) && c.determined_mm >= 0.0;
-  const bool window = c.window_low >= 0.0 && c.window_low < c.window_high && c.window_high <= 1.0;
-  const bool modes =
-      std::isfinite(c.ratio) && c.ratio > 0.0 && (c.mode != FitMode::constrained || std::isfinite(c.tolerance.rest_mm));
-  const bool loss = std::isfinite(c.loss_scale_mm) && c.loss_scale_mm >= 0.0 &&
-                    (c.loss == Loss::none || c.mode == FitMode::least_squares);
-  return sizes && lengths && window && modes && loss && c.locked < kLockAll && c.further_starts <= 12 &&
-         pose_valid(c.start) && tolerances_valid(c.tolerance, patches);
 }
 
 Evidence evidence_of(const LocalizerParts& p) {
@@ -140,7 +112,7 @@ Status Localizer::create(std::span<std::byte> memory, const DesignImage& design,
                          Localizer*& localizer) {
   if (memory.data() == nullptr || design.patches().empty()) return Status::null_argument;
   if (reinterpret_cast<std::uintptr_t>(memory.data()) % kAlignment != 0) return Status::misaligned;
-  if (!config_valid(config, design.patches().size())) return Status::out_of_range;
+  if (check_config(config, design.patches().size())) return Status::out_of_range;
   if (memory.size() < memory_required(config)) return Status::not_enough_memory;
 
   std::byte* place = memory.data() + rounded_up(sizeof(Localizer));

@@ -6,6 +6,7 @@
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/loss.hpp"
 #include "core/fit/motion_lock.hpp"
+#include "core/fit/point_policy.hpp"
 #include "core/fit/pose.hpp"
 #include "core/geometry/surface/surface.hpp"
 #include "core/inspection/tolerance_map.hpp"
@@ -14,12 +15,6 @@
 #include "core/status.hpp"
 
 namespace bladefit {
-
-/// Whether points whose foot is on an edge or a corner count in the fit.
-enum class EdgePolicy : std::uint8_t { skip = 0, use = 1 };
-/// follow: region of the current foot. fixed: region assigned at the least-squares solution. (All modes except least
-/// squares.)
-enum class RegionPolicy : std::uint8_t { follow = 0, fixed = 1 };
 
 struct LocalizerConfig {
   /// Points that are stored, so that their feet follow the pose. Further points are judged and counted, and their rows

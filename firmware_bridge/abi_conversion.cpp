@@ -1,64 +1,27 @@
 #include "firmware_bridge/abi_conversion.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <span>
+
+#include "core/localizer/check_config.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr double kOrthogonal = 1e-9;
-constexpr std::uint32_t kLeastCapacity = 6, kLeastRefresh = 2, kMostRefresh = 64;
+static_assert(BLADEFIT_MAX_BOXES == ToleranceMap::kMaxBoxes && BLADEFIT_MAX_CAPACITY == kMostCapacity);
+static_assert(BLADEFIT_NOT_FINITE == static_cast<int>(Status::not_finite) &&
+              BLADEFIT_OUT_OF_RANGE == static_cast<int>(Status::out_of_range));
 
 Mat3 rotation_from(const double (&rows)[9]) {
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows);
 }
 
-bool is_not_number(double value) { return std::isnan(value); }
-
-bool all_finite(std::span<const double> values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
-}
-
-bool numbers_are_finite(const bladefit_config& config) {
-  const double single[] = {config.probe_radius_mm, config.noise_floor_mm, config.determined_mm, config.transition,
-                           config.window_low,      config.window_high,    config.ratio,         config.loss_scale_mm};
-  const auto boxes = std::span(config.boxes).first(config.box_count);
-  return all_finite(single) && all_finite(config.start_rotation) && all_finite(config.start_translation) &&
-         !is_not_number(config.leading_edge_tolerance_mm) && !is_not_number(config.rest_tolerance_mm) &&
-         std::ranges::all_of(boxes, [](const bladefit_box& box) {
-           const double limits[] = {box.u_min, box.u_max, box.v_min, box.v_max};
-           return all_finite(limits);
-         });
-}
-
-bool choices_are_in_range(const bladefit_config& config) {
-  return config.capacity >= kLeastCapacity && config.capacity <= BLADEFIT_MAX_CAPACITY &&
-         config.refresh_per_push >= kLeastRefresh && config.refresh_per_push <= kMostRefresh &&
-         config.use_approach <= 1 && config.edges <= BLADEFIT_EDGES_USE && config.box_count <= BLADEFIT_MAX_BOXES &&
-         config.mode <= BLADEFIT_CONSTRAINED && config.regions <= BLADEFIT_REGIONS_FIXED && config.locked < kLockAll &&
+/// What the core's narrower types cannot hold, which check_config() therefore cannot see.
+bool numbers_fit(const bladefit_config& config) {
+  return config.use_approach <= 1 && config.edges <= BLADEFIT_EDGES_USE && config.box_count <= BLADEFIT_MAX_BOXES &&
+         config.mode <= BLADEFIT_CONSTRAINED && config.regions <= BLADEFIT_REGIONS_FIXED && config.locked <= kLockAll &&
          config.loss <= BLADEFIT_LOSS_TUKEY;
-}
-
-bool lengths_are_in_range(const bladefit_config& config) {
-  return config.probe_radius_mm >= 0 && config.noise_floor_mm > 0 && config.determined_mm >= 0 &&
-         config.leading_edge_tolerance_mm > 0 && config.rest_tolerance_mm > 0 && config.transition >= 0 &&
-         config.window_low >= 0 && config.window_low < config.window_high && config.window_high <= 1 &&
-         (config.ratio == 0 || config.ratio >= 1) && config.loss_scale_mm >= 0 &&
-         (config.mode != BLADEFIT_CONSTRAINED || std::isfinite(config.rest_tolerance_mm)) &&
-         (config.loss == BLADEFIT_LOSS_NONE || config.mode == BLADEFIT_LEAST_SQUARES);
-}
-
-bool boxes_are_in_range(const bladefit_config& config) {
-  return std::ranges::all_of(std::span(config.boxes).first(config.box_count),
-                             [](const bladefit_box& box) { return box.u_min <= box.u_max && box.v_min <= box.v_max; });
-}
-
-bool is_rotation(const Mat3& matrix) {
-  const Mat3 deviation = matrix.transpose() * matrix - Mat3::Identity();
-  return deviation.cwiseAbs().maxCoeff() < kOrthogonal && matrix.determinant() > 0;
 }
 
 ToleranceMap tolerance_from(const bladefit_config& config) {
@@ -90,11 +53,7 @@ bladefit_certificate translate_certificate(const Certificate& from) {
 }  // namespace
 
 bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& to) {
-  if (!choices_are_in_range(from)) return BLADEFIT_OUT_OF_RANGE;
-  if (!numbers_are_finite(from)) return BLADEFIT_NOT_FINITE;
-  if (!lengths_are_in_range(from) || !boxes_are_in_range(from)) return BLADEFIT_OUT_OF_RANGE;
-  const Mat3 rotation = rotation_from(from.start_rotation);
-  if (!is_rotation(rotation)) return BLADEFIT_OUT_OF_RANGE;
+  if (!numbers_fit(from)) return BLADEFIT_OUT_OF_RANGE;
   to.capacity = from.capacity;
   to.refresh_per_push = from.refresh_per_push;
   to.probe_radius_mm = from.probe_radius_mm;
@@ -104,7 +63,7 @@ bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& t
   to.determined_mm = from.determined_mm;
   to.window_low = from.window_low;
   to.window_high = from.window_high;
-  to.start = {rotation, Eigen::Map<const Vec3>(from.start_translation)};
+  to.start = {rotation_from(from.start_rotation), Eigen::Map<const Vec3>(from.start_translation)};
   to.tolerance = tolerance_from(from);
   to.mode = static_cast<FitMode>(from.mode);
   to.regions = static_cast<RegionPolicy>(from.regions);
@@ -112,7 +71,7 @@ bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& t
   to.loss = static_cast<Loss>(from.loss);
   to.loss_scale_mm = from.loss_scale_mm;
   to.ratio = from.ratio == 0 ? 10.0 : from.ratio;
-  return BLADEFIT_OK;
+  return static_cast<bladefit_status>(check_config(to, kAnyPatches).status);
 }
 
 bladefit_status translate_point(const bladefit_point& from, ProbePoint& to) {

@@ -4,7 +4,8 @@
 
 namespace bladefit {
 
-/// Checks every number of `from` and translates it. Returns BLADEFIT_OK, BLADEFIT_NOT_FINITE or BLADEFIT_OUT_OF_RANGE.
+/// Translates a configuration and checks it for whatever design: that the patches of the boxes exist is left to
+/// check_config() with that design. Returns BLADEFIT_OK, BLADEFIT_NOT_FINITE or BLADEFIT_OUT_OF_RANGE.
 [[nodiscard]] bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& to);
 
 /// Checks and translates a point; what the localizer checks itself is left to it. Returns BLADEFIT_OK or

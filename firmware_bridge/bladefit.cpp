@@ -1,11 +1,11 @@
 #include "firmware_bridge/bladefit.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <new>
 #include <span>
 
 #include "core/localizer.hpp"
+#include "core/localizer/check_config.hpp"
 #include "firmware_bridge/abi_conversion.hpp"
 
 /// Stands at the start of the caller's memory; the localizer follows.
@@ -62,10 +62,7 @@ bladefit_status prepare(const bladefit_config* config, const void* design, std::
   if (design == nullptr) return BLADEFIT_NULL_ARGUMENT;
   const std::span bytes(static_cast<const std::byte*>(design), design_size);
   if (const Status status = DesignImage::open(bytes, image); status != Status::ok) return to_abi(status);
-  const auto boxes = std::span(config->boxes).first(config->box_count);
-  const bool patches_exist =
-      std::ranges::all_of(boxes, [&](const bladefit_box& box) { return box.patch < image.patches().size(); });
-  return patches_exist ? BLADEFIT_OK : BLADEFIT_OUT_OF_RANGE;
+  return to_abi(bladefit::check_config(translated, image.patches().size()).status);
 }
 
 }  // namespace

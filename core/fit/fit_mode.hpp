@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace bladefit {
 
@@ -12,6 +14,12 @@ enum class FitMode : std::uint8_t {
   min_tolerance = 3,  ///< the smallest s with |d| <= s w (what thesis 5.3.2 finds by trial)
   constrained = 4     ///< sum d^2 subject to |d| <= tolerance (thesis 4-6, 4-7)
 };
+
+/// The words of the modes on the command line, in files and in results, in the order of their values.
+inline constexpr std::array<std::string_view, 5> kFitModeWords = {"least_squares", "minimax", "range", "min_tolerance",
+                                                                  "constrained"};
+
+constexpr std::string_view word_of(FitMode mode) { return kFitModeWords[static_cast<std::size_t>(mode)]; }
 
 /// Points that prove an optimum of the maximum kind: at the pose their |d| / w is the value, and no motion lessens all
 /// of them, since sum multiplier * sign * grad d = 0.

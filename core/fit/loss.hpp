@@ -1,5 +1,8 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace bladefit {
 
@@ -9,6 +12,11 @@ enum class Loss : std::uint8_t {
   huber = 1,  ///< |d| beyond 1.345 scales: an outlier pulls no harder than that
   tukey = 2   ///< constant beyond 4.685 scales: an outlier does not pull at all
 };
+
+/// The words of the losses on the command line, in files and in results, in the order of their values.
+inline constexpr std::array<std::string_view, 3> kLossWords = {"none", "huber", "tukey"};
+
+constexpr std::string_view word_of(Loss loss) { return kLossWords[static_cast<std::size_t>(loss)]; }
 
 /// One distance in the sum, with the derivatives that Newton's method needs.
 struct LossTerms {

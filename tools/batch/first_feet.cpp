@@ -90,9 +90,9 @@ std::uint32_t stage_from_neighbours(Localizer& localizer, const Surface& surface
 }  // namespace
 
 FootStarts parse_starts(const std::string& text) {
-  if (text == "curves") return FootStarts::curves;
-  if (text == "neighbour") return FootStarts::neighbour;
-  if (text == "global") return FootStarts::global;
+  for (std::size_t k = 1; k < kFootStartsWords.size(); ++k) {
+    if (text == kFootStartsWords[k]) return static_cast<FootStarts>(k);
+  }
   throw ToolError(fmt::format("--starts {}: give curves, neighbour or global", text));
 }
 

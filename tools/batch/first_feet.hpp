@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/localizer.hpp"
@@ -15,6 +17,9 @@ enum class FootStarts {
   neighbour,  ///< Newton's method from the foot of the point before on the same path; the first of a path: global
   curves,     ///< Newton's method from the foot of the path's curve, which is followed along it (thesis 5.3)
 };
+
+/// The words of the ways, in the order of their values; the first cannot be asked for.
+inline constexpr std::array<std::string_view, 4> kFootStartsWords = {"default", "global", "neighbour", "curves"};
 
 /// The name on the command line. Throws ToolError for any other than curves, neighbour and global.
 [[nodiscard]] FootStarts parse_starts(const std::string& text);

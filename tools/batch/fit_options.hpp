@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "config/fit_settings.hpp"
+#include "config/fit_option.hpp"
 #include "core/geometry/surface/design_image.hpp"
 #include "core/localizer.hpp"
 #include "tools/batch/first_feet.hpp"
@@ -14,16 +14,13 @@ namespace bladefit {
 
 inline constexpr double kMmPerInch = 25.4;
 
-/// Adds the fit options that `localize` and `run` share; what is given on the command line goes to `flags`.
+/// Adds a flag for each row of fit_options(), which `localize` and `run` share; what is given on the command line goes
+/// to `flags`. A value that cannot be used throws ToolError while the command line is read.
 void add_fit_options(CLI::App& command, FitSettings& flags);
-
-/// `flags` where they are set, `file` elsewhere.
-[[nodiscard]] FitSettings merged(const FitSettings& flags, const FitSettings& file);
 
 /// A fit ready to run.
 struct FitPlan {
-  std::string mode = "least_squares";  ///< name of localizer.mode
-  std::string units = "mm";            ///< of lengths on the command line and in results
+  std::string units = "mm";  ///< of lengths on the command line and in results
   double mm_per_unit = 1.0;
   LocalizerConfig localizer;
   FootStarts starts = FootStarts::searched;  ///< of a batch fit
@@ -33,11 +30,11 @@ struct FitPlan {
 /// Names of the degrees of freedom in a set of bits of motion_lock.hpp: tx, ry ...
 [[nodiscard]] std::vector<std::string> names_of_locked(std::uint8_t locked);
 
-/// Where the design's outward side comes from. Throws ToolError for a text that is not +, - or auto.
+/// Where the design's outward side comes from.
 [[nodiscard]] OutwardOption outward_of(const FitSettings& settings);
 
-/// Checks the settings against the design and turns lengths to mm. Throws ToolError (bad_input) that names the option
-/// and the mend.
+/// Turns the settings to a configuration in mm and checks it by check_config(). Throws ToolError (bad_input) that names
+/// the option and the fix.
 [[nodiscard]] FitPlan plan_fit(const FitSettings& settings, const DesignImage& design);
 
 }  // namespace bladefit

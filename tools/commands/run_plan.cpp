@@ -40,7 +40,7 @@ SessionSettings merged_session(const RunFlags& flags) {
 }
 
 /// `flag` is that of --units, which wins over the units that a device file gives for its recording.
-SourceSettings plan_source(const SessionSettings& session, const std::optional<std::string>& flag, double mm_per_unit) {
+SourceSettings plan_source(const SessionSettings& session, const std::optional<DesignUnit>& flag, double mm_per_unit) {
   SourceSettings source;
   source.replay.mm_per_unit = mm_per_unit;
   if (session.device) {

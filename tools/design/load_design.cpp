@@ -51,9 +51,9 @@ OutwardSide choose_side(const DesignFile& file, const std::string& name, Outward
 }  // namespace
 
 OutwardOption parse_outward(std::string_view text) {
-  if (text == "auto") return OutwardOption::automatic;
-  if (text == "+") return OutwardOption::plus;
-  if (text == "-") return OutwardOption::minus;
+  for (std::size_t k = 0; k < kOutwardWords.size(); ++k) {
+    if (text == kOutwardWords[k]) return static_cast<OutwardOption>(k);
+  }
   throw ToolError(fmt::format("--outward {}: unknown side; say +, - or auto", text));
 }
 

@@ -5,14 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace bladefit {
+#include "config/outward_option.hpp"
 
-/// Which side of the surface is away from the material.
-enum class OutwardOption {
-  automatic,  ///< from the shape, or as stored in a .bfd
-  plus,       ///< that of Su x Sv
-  minus,      ///< the other one
-};
+namespace bladefit {
 
 /// A design image, as the core takes it, and what a user should know of how it came about.
 struct LoadedDesign {

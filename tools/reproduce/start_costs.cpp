@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "tools/batch/batch_fit.hpp"
 
@@ -12,10 +11,8 @@ namespace {
 /// The shortest time of so many fits is told.
 constexpr int kRepeats = 3;
 
-constexpr std::array<std::pair<FootStarts, const char*>, 4> kWays{{{FootStarts::searched, "default"},
-                                                                   {FootStarts::curves, "curves"},
-                                                                   {FootStarts::neighbour, "neighbour"},
-                                                                   {FootStarts::global, "global"}}};
+/// In the order of the table.
+constexpr std::array kWays = {FootStarts::searched, FootStarts::curves, FootStarts::neighbour, FootStarts::global};
 
 FitResult quickest_fit(const StudyCase& study, FitPlan plan, const std::vector<ProbePoint>& points, FootStarts starts) {
   plan.starts = starts;
@@ -53,10 +50,10 @@ ReportTable start_cost_table() {
 
 void add_start_costs(const StudyCase& study, const std::string& subset, ReportTable& table) {
   const std::vector<ProbePoint> points = read_subset_points(study, subset);
-  for (const auto& [starts, name] : kWays) {
+  for (const FootStarts starts : kWays) {
     const FitResult fit = quickest_fit(study, study.plan, points, starts);
     table.rows.push_back({study.name + " " + subset,
-                          name,
+                          std::string(kFootStartsWords[static_cast<std::size_t>(starts)]),
                           study.name,
                           subset,
                           {static_cast<double>(points.size()), fit.fit.cpu_s, static_cast<double>(fit.fit.searches),

@@ -67,7 +67,7 @@ std::string fit_remarks(const FitResult& result, const FitPlan& plan) {
     text += fmt::format("Locked at the start value: {}\n", fmt::join(names_of_locked(plan.localizer.locked), ", "));
   if (plan.localizer.loss != Loss::none) {
     text += fmt::format("Robust loss {}, standard deviation of good points {:.4g} {}\n",
-                        plan.localizer.loss == Loss::huber ? "huber" : "tukey",
+                        word_of(plan.localizer.loss),
                         result.report.loss_scale_mm / plan.mm_per_unit, plan.units);
   }
   const AberrantPoints& aberrant = result.aberrant;

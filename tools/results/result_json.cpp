@@ -97,7 +97,7 @@ Json aberrant_json(const AberrantPoints& aberrant, double mm_per_unit) {
 
 Json loss_json(const FitReport& report, Loss loss, double mm_per_unit) {
   if (loss == Loss::none) return nullptr;
-  return {{"name", loss == Loss::huber ? "huber" : "tukey"}, {"scale", report.loss_scale_mm / mm_per_unit}};
+  return {{"name", word_of(loss)}, {"scale", report.loss_scale_mm / mm_per_unit}};
 }
 
 Json points_json(const std::vector<Verdict>& verdicts, double mm_per_unit) {
@@ -123,7 +123,7 @@ std::string result_json(const FitResult& result, const FitPlan& plan) {
   const double unit = plan.mm_per_unit;
   Json json;
   json["status"] = result.status;
-  json["mode"] = plan.mode;
+  json["mode"] = word_of(plan.localizer.mode);
   json["units"] = plan.units;
   json["pose"] = pose_json(result.report.pose, unit);
   json["covariance"] = covariance_json(result.report, plan.localizer.mode, unit);

@@ -11,12 +11,13 @@ namespace bladefit {
 
 /// Journal of a session, little endian: one JournalHeader, then JournalRecords to the end of the file.
 inline constexpr std::array<char, 8> kJournalMagic = {'B', 'F', 'J', 'R', 'N', 'L', '\r', '\n'};
-inline constexpr std::uint32_t kJournalVersion = 3;
+/// Version 4: the digest holds every field of the configuration; that of version 3 left out `further_starts`.
+inline constexpr std::uint32_t kJournalVersion = 4;
 
 /// What a session is bound to: its points mean something for this design and these settings only.
 struct SessionIdentity {
   std::uint32_t design_crc = 0;     ///< crc32 field of the design image
-  std::uint64_t config_digest = 0;  ///< of every setting that changes a verdict
+  std::uint64_t config_digest = 0;  ///< config_digest(): of every setting
 };
 
 struct JournalHeader {

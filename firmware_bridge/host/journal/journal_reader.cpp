@@ -28,9 +28,10 @@ HostError check_header(const std::string& path, const JournalHeader& header) {
     return {Fault::bad_input, fmt::format("{}: is no journal of a session; name another session folder", path)};
   }
   if (header.version != kJournalVersion) {
-    return {Fault::bad_input, fmt::format("{}: journal of format version {}, this program reads version {}; use the "
+    const char* why = header.version < kJournalVersion ? ", whose check of the settings left out some of them" : "";
+    return {Fault::bad_input, fmt::format("{}: journal of format version {}{}; this program reads version {}: use the "
                                           "program that wrote it, or name another session folder",
-                                          path, header.version, kJournalVersion)};
+                                          path, header.version, why, kJournalVersion)};
   }
   if (!header_is_whole(header)) {
     return {Fault::bad_input, fmt::format("{}: the header is damaged; copy the file from a backup, or name another "

@@ -163,7 +163,7 @@ TEST(BridgeJournal, RefusesForeignFilesAndOtherVersions) {
   JournalHeader header = make_journal_header(kIdentity, kRun);
   header.version = kJournalVersion + 1;
   write_bytes_to(path, std::string(reinterpret_cast<const char*>(&header), sizeof header));
-  EXPECT_NE(read_journal(path, content).message.find("version 3"), std::string::npos);
+  EXPECT_NE(read_journal(path, content).message.find("this program reads version 4"), std::string::npos);
   EXPECT_FALSE(read_journal(folder / "missing.bin", content));
   EXPECT_FALSE(content.exists);
 }

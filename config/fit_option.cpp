@@ -1,0 +1,218 @@
+#include "config/fit_option.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace bladefit {
+namespace {
+
+using S = FitSettings;
+using C = LocalizerConfig;
+
+constexpr double kLargest = 1e9;     ///< accepted length [units] or ratio
+constexpr std::size_t kWidth = 100;  ///< columns of a comment in the shipped file
+
+constexpr NumberOption length_above_0(std::optional<double> S::*value) { return {value, 0, kLargest, true}; }
+
+void apply_boxes(const S& s, double /*mm*/, C& c) {
+  c.tolerance.box_count = static_cast<std::uint32_t>(s.leading_edge->size());
+  std::ranges::copy(*s.leading_edge, c.tolerance.boxes.begin());
+}
+
+/// `ratio` has two uses here: it gives the rest tolerance where that is not given, and it is the ratio that the mode
+/// min_tolerance holds. In the C interface, which takes both tolerances as lengths, it has the second one only.
+void apply_tolerance(const S& s, double mm, C& c) {
+  c.tolerance.leading_edge_mm = *s.tolerance * mm;
+  c.tolerance.rest_mm = s.ratio.value_or(c.ratio) * c.tolerance.leading_edge_mm;
+}
+
+/// Two tolerances give the ratio of min_tolerance where it is not given itself.
+void apply_rest_tolerance(const S& s, double mm, C& c) {
+  c.tolerance.rest_mm = *s.rest_tolerance * mm;
+  const bool wanted = c.mode == FitMode::min_tolerance && s.tolerance && !s.ratio;
+  if (wanted) c.ratio = c.tolerance.rest_mm / c.tolerance.leading_edge_mm;
+}
+
+void apply_window(const S& s, double /*mm*/, C& c) {
+  c.window_low = s.window->low;
+  c.window_high = s.window->high;
+}
+
+// An option is applied after those above it.
+constexpr std::array kOptions{
+    FitOption{"mode", ChoiceOption<FitMode>{&S::mode, kFitModeWords},
+              [](const S& s, double, C& c) { c.mode = *s.mode; },
+              "what the fit minimises: least_squares (default): the sum of squared distances; minimax: the largest "
+              "distance; range: the largest less the smallest signed distance; min_tolerance: the leading-edge "
+              "tolerance that can just be met, with ratio times it elsewhere; constrained: the sum of squares with "
+              "every distance within its tolerance",
+              "\"least_squares\"", true},
+    FitOption{"leading_edge", BoxesOption{&S::leading_edge}, apply_boxes,
+              "leading-edge region: [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6, a box between two isoparameter lines; "
+              "PATCH counts from 0; may be several",
+              "[\"0:u:0.4:0.6\"]", true},
+    FitOption{"tolerance", length_above_0(&S::tolerance), apply_tolerance,
+              "distance allowed at the leading edge, in units", "0.1", true},
+    FitOption{"rest_tolerance", length_above_0(&S::rest_tolerance), apply_rest_tolerance,
+              "distance allowed elsewhere, in units (default: ratio times that at the leading edge)", "1.0"},
+    FitOption{"ratio", NumberOption{&S::ratio, 1, kLargest}, [](const S& s, double, C& c) { c.ratio = *s.ratio; },
+              "rest tolerance / leading-edge tolerance (default 10): gives the rest tolerance where that is not given, "
+              "and is the ratio that min_tolerance holds",
+              "10.0", true},
+    FitOption{"transition", NumberOption{&S::transition, 0, 1},
+              [](const S& s, double, C& c) { c.tolerance.transition = *s.transition; },
+              "width [patch parameter] over which the tolerance rises outside the leading-edge region (default 0)",
+              "0.0", true},
+    FitOption{"window", WindowOption{&S::window}, apply_window,
+              "use only points whose foot before the fit has a <= u,v <= b, for example 0.05:0.95", "\"0.05:0.95\""},
+    FitOption{"outward", ChoiceOption<OutwardOption>{&S::outward, kOutwardWords}, nullptr,
+              "+, - or auto: side of the surface, that of Su x Sv or the other, away from the material (default auto)",
+              "\"auto\""},
+    FitOption{"probe_radius", NumberOption{&S::probe_radius, 0, kLargest},
+              [](const S& s, double mm, C& c) { c.probe_radius_mm = *s.probe_radius * mm; },
+              "points are centres of a ball of this radius, in units (default 0)", "0.0", true},
+    FitOption{"units", ChoiceOption<DesignUnit>{&S::units, kDesignUnitWords}, nullptr,
+              "mm or in: of all lengths given and written (default: those of the design file)", "\"mm\""},
+    FitOption{"regions", ChoiceOption<RegionPolicy>{&S::regions, kRegionPolicyWords},
+              [](const S& s, double, C& c) { c.regions = *s.regions; },
+              "follow (default): a point's region is that of its present foot; fixed: of its foot at the least-squares "
+              "solution, as in the thesis. In a least-squares fit the two agree",
+              "\"follow\"", true},
+    FitOption{"edges", ChoiceOption<EdgePolicy>{&S::edges, kEdgePolicyWords},
+              [](const S& s, double, C& c) { c.edges = *s.edges; },
+              "skip (default) or use points whose foot is on an edge of the design", "\"skip\"", true},
+    FitOption{"lock", LocksOption{&S::lock}, [](const S& s, double, C& c) { c.locked = *s.lock; },
+              "tx,ty,tz,rx,ry,rz: degrees of freedom that keep their start value, for example tx,rz; rx, ry, rz hold "
+              "the angles psi, theta, phi of C = Rx(psi) Ry(theta) Rz(phi)",
+              "\"tx,rz\""},
+    FitOption{"loss", ChoiceOption<Loss>{&S::loss, kLossWords}, [](const S& s, double, C& c) { c.loss = *s.loss; },
+              "none (default), huber or tukey: robust least squares, in which outliers pull less (huber) or not at all "
+              "(tukey)",
+              "\"none\"", true},
+    FitOption{"loss_scale", length_above_0(&S::loss_scale),
+              [](const S& s, double mm, C& c) { c.loss_scale_mm = *s.loss_scale * mm; },
+              "standard deviation of good points, in units (default: 1.4826 times the median distance)", "0.05"},
+    FitOption{"start", PathOption{&S::start}, nullptr,
+              "CSV file of at least 3 point pairs, columns [name,]x,y,z,design_x,design_y,design_z in units: the pose "
+              "that brings them together is where the fit starts",
+              "\"pairs.csv\""},
+    FitOption{"ignore_approach", FlagOption{&S::ignore_approach},
+              [](const S& s, double, C& c) { c.use_approach = !*s.ignore_approach; },
+              "do not use the probing directions i,j,k, which choose the side of the blade", "false", true},
+};
+
+/// A comment of whole words, at most kWidth columns wide where they allow it.
+std::string comment(std::string_view text) {
+  std::string out = "#";
+  std::size_t column = 1;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(text.size(), word.size() + 1));
+    if (column > 1 && column + 1 + word.size() > kWidth) {
+      out += "\n#";
+      column = 1;
+    }
+    out += fmt::format(" {}", word);
+    column += 1 + word.size();
+  }
+  return out + "\n";
+}
+
+}  // namespace
+
+ConfigError set(const NumberOption& option, double given, FitSettings& settings) {
+  const bool inside = given >= option.low && given <= option.high && !(option.above && given == option.low);
+  if (inside) {
+    settings.*option.value = given;
+    return {};
+  }
+  if (option.above)
+    return {fmt::format("{} is out of range; give one above {}, up to {}", given, option.low, option.high)};
+  if (option.high == kLargest && option.low == 0)
+    return {fmt::format("{} is out of range; give 0 or more, up to {}", given, option.high)};
+  return {fmt::format("{} is out of range; give a number from {} to {}", given, option.low, option.high)};
+}
+
+ConfigError find_word(std::span<const std::string_view> words, std::string_view text, std::size_t& place) {
+  const auto found = std::ranges::find(words, text);
+  if (found == words.end()) return {fmt::format("'{}' is none of: {}", text, fmt::join(words, ", "))};
+  place = static_cast<std::size_t>(found - words.begin());
+  return {};
+}
+
+ConfigError set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings) {
+  if (given.size() > ToleranceMap::kMaxBoxes)
+    return {fmt::format("{} boxes, at most {} are possible", given.size(), ToleranceMap::kMaxBoxes)};
+  std::vector<ParameterBox> boxes(given.size());
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    if (const ConfigError error = parse_leading_edge(given[k], boxes[k])) return error;
+  }
+  settings.*option.value = std::move(boxes);
+  return {};
+}
+
+ConfigError set(const WindowOption& option, const std::string& given, FitSettings& settings) {
+  ParameterWindow window;
+  if (const ConfigError error = parse_window(given, window)) return error;
+  settings.*option.value = window;
+  return {};
+}
+
+ConfigError set(const LocksOption& option, const std::string& given, FitSettings& settings) {
+  std::uint8_t locked = 0;
+  if (const ConfigError error = parse_lock(given, locked)) return error;
+  settings.*option.value = locked;
+  return {};
+}
+
+ConfigError set(const PathOption& option, const std::string& given, FitSettings& settings) {
+  settings.*option.value = given;
+  return {};
+}
+
+ConfigError set(const FlagOption& option, bool given, FitSettings& settings) {
+  settings.*option.value = given;
+  return {};
+}
+
+std::span<const FitOption> fit_options() { return kOptions; }
+
+std::string flag_of(const FitOption& option) {
+  std::string flag = fmt::format("--{}", option.key);
+  std::ranges::replace(flag, '_', '-');
+  return flag;
+}
+
+FitSettings merged(const FitSettings& flags, const FitSettings& file) {
+  FitSettings out = flags;
+  for (const FitOption& option : kOptions) {
+    const auto fill = [&](const auto& kind) {
+      if (!(out.*kind.value)) out.*kind.value = file.*kind.value;
+    };
+    std::visit(fill, option.kind);
+  }
+  return out;
+}
+
+void apply_fit_options(const FitSettings& settings, double mm_per_unit, LocalizerConfig& config) {
+  for (const FitOption& option : kOptions) {
+    const bool given = std::visit([&](const auto& kind) { return (settings.*kind.value).has_value(); }, option.kind);
+    if (given && option.apply != nullptr) option.apply(settings, mm_per_unit, config);
+  }
+}
+
+std::string fit_toml() {
+  std::string text =
+      "# Fit options for `bladefit localize --config FILE`. Flags on the command line win over them. Every key may be "
+      "left out.\n[fit]\n";
+  for (const FitOption& option : kOptions) {
+    text += "\n" + comment(option.help);
+    text += fmt::format("{}{} = {}\n", option.active ? "" : "# ", option.key, option.example);
+  }
+  return text;
+}
+
+}  // namespace bladefit

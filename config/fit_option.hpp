@@ -1,0 +1,118 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "config/config_error.hpp"
+#include "config/fit_settings.hpp"
+#include "core/localizer.hpp"
+
+namespace bladefit {
+
+// Kinds of options. `value` is where the parsed value is kept, `Given` how a file or the command line gives it. For
+// each kind a set() parses what is given; its error is the reason alone, before which the caller names flag or key, and
+// leaves the settings as they were.
+
+/// A number from `low` to `high`; with `above`, low itself is excluded.
+struct NumberOption {
+  using Given = double;
+  std::optional<double> FitSettings::*value;
+  double low, high;
+  bool above = false;
+};
+
+/// One of `words`, which stand in the order of the enumeration's values.
+template <typename Enum>
+struct ChoiceOption {
+  using Given = std::string;
+  std::optional<Enum> FitSettings::*value;
+  std::span<const std::string_view> words;
+};
+
+/// Leading-edge boxes, each as parse_leading_edge() reads it.
+struct BoxesOption {
+  using Given = std::vector<std::string>;
+  std::optional<std::vector<ParameterBox>> FitSettings::*value;
+};
+
+/// As parse_window() reads it.
+struct WindowOption {
+  using Given = std::string;
+  std::optional<ParameterWindow> FitSettings::*value;
+};
+
+/// Degrees of freedom, as parse_lock() reads them.
+struct LocksOption {
+  using Given = std::string;
+  std::optional<std::uint8_t> FitSettings::*value;
+};
+
+/// A file. In a TOML file a relative path is taken from the folder of that file.
+struct PathOption {
+  using Given = std::string;
+  std::optional<std::string> FitSettings::*value;
+};
+
+/// Given or not on the command line, true or false in a file.
+struct FlagOption {
+  using Given = bool;
+  std::optional<bool> FitSettings::*value;
+};
+
+using FitOptionKind = std::variant<NumberOption, ChoiceOption<FitMode>, ChoiceOption<OutwardOption>,
+                                   ChoiceOption<DesignUnit>, ChoiceOption<RegionPolicy>, ChoiceOption<EdgePolicy>,
+                                   ChoiceOption<Loss>, BoxesOption, WindowOption, LocksOption, PathOption, FlagOption>;
+
+[[nodiscard]] ConfigError set(const NumberOption& option, double given, FitSettings& settings);
+[[nodiscard]] ConfigError set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings);
+[[nodiscard]] ConfigError set(const WindowOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] ConfigError set(const LocksOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] ConfigError set(const PathOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] ConfigError set(const FlagOption& option, bool given, FitSettings& settings);
+
+/// The place of a text among words. Error: it is none of them.
+[[nodiscard]] ConfigError find_word(std::span<const std::string_view> words, std::string_view text, std::size_t& place);
+
+template <typename Enum>
+[[nodiscard]] ConfigError set(const ChoiceOption<Enum>& option, const std::string& given, FitSettings& settings) {
+  std::size_t place = 0;
+  if (const ConfigError error = find_word(option.words, given, place)) return error;
+  settings.*option.value = static_cast<Enum>(place);
+  return {};
+}
+
+/// Writes an option that is set to the configuration of the fit.
+using ApplyOption = void (*)(const FitSettings& settings, double mm_per_unit, LocalizerConfig& config);
+
+/// All there is to know of an option.
+struct FitOption {
+  std::string_view key;  ///< in TOML; the flag is "--" and the key with '-' for '_'
+  FitOptionKind kind;
+  ApplyOption apply;  ///< null: it is not for the localizer but for whoever loads the design, the points or the start
+  std::string_view help;     ///< for --help and the shipped file: it names other options by words, not by flag or key
+  std::string_view example;  ///< value in the shipped file
+  bool active = false;       ///< whether the shipped file sets it; elsewhere it stands there behind a #
+};
+
+/// The table of the options, in the order of --help and the shipped file.
+[[nodiscard]] std::span<const FitOption> fit_options();
+
+/// The flag of an option: "--leading-edge".
+[[nodiscard]] std::string flag_of(const FitOption& option);
+
+/// `flags` where they are set, `file` elsewhere.
+[[nodiscard]] FitSettings merged(const FitSettings& flags, const FitSettings& file);
+
+/// Writes every option that is set to `config`, lengths turned to mm. What fields ask of each other is left to
+/// check_config().
+void apply_fit_options(const FitSettings& settings, double mm_per_unit, LocalizerConfig& config);
+
+/// The text of the shipped config/fit.toml: each option with its help, its value or an example of one.
+[[nodiscard]] std::string fit_toml();
+
+}  // namespace bladefit

@@ -1,0 +1,79 @@
+#include "config/fit_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "drivers/text/text_number.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Cuts the text up to the next colon off `rest`.
+std::string_view take_part(std::string_view& rest) {
+  const std::size_t colon = rest.find(':');
+  const std::string_view part = rest.substr(0, colon);
+  rest.remove_prefix(colon == std::string_view::npos ? rest.size() : colon + 1);
+  return part;
+}
+
+/// Reads `a:b`, 0 <= a < b <= 1. False: it is not that.
+bool parse_interval(std::string_view text, double& low, double& high) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return false;
+  const std::optional<double> first = parse_finite(text.substr(0, colon));
+  const std::optional<double> second = parse_finite(text.substr(colon + 1));
+  if (!first || !second || !(*first >= 0 && *first < *second && *second <= 1)) return false;
+  low = *first;
+  high = *second;
+  return true;
+}
+
+}  // namespace
+
+ConfigError parse_lock(std::string_view text, std::uint8_t& locked) {
+  std::uint32_t read = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view name = trimmed(rest.substr(0, comma));
+    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+    const auto* known = std::find(kDegreesOfFreedom.begin(), kDegreesOfFreedom.end(), name);
+    if (known == kDegreesOfFreedom.end()) {
+      return {
+          fmt::format("'{}' is no degree of freedom; write some of tx,ty,tz,rx,ry,rz with commas between them", name)};
+    }
+    read |= 1U << static_cast<unsigned>(known - kDegreesOfFreedom.begin());
+  }
+  if (read == 63U) return {"all six degrees of freedom are locked; leave one free for the fit"};
+  locked = static_cast<std::uint8_t>(read);
+  return {};
+}
+
+ConfigError parse_leading_edge(std::string_view text, ParameterBox& box) {
+  const ConfigError wrong{
+      fmt::format("'{}' is no leading-edge box; write [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6 with limits from 0 to 1, "
+                  "the lower first",
+                  text)};
+  std::string_view rest = text;
+  ParameterBox read;
+  std::string_view part = take_part(rest);
+  if (part != "u" && part != "v") {
+    const std::optional<std::uint32_t> patch = parse_whole<std::uint32_t>(part);
+    if (!patch) return wrong;
+    read.patch = *patch;
+    part = take_part(rest);
+  }
+  if (part != "u" && part != "v") return wrong;
+  const bool along_u = part == "u";
+  if (!parse_interval(rest, along_u ? read.u_min : read.v_min, along_u ? read.u_max : read.v_max)) return wrong;
+  box = read;
+  return {};
+}
+
+ConfigError parse_window(std::string_view text, ParameterWindow& window) {
+  if (parse_interval(text, window.low, window.high)) return {};
+  return {fmt::format("'{}' is no window; write 0.05:0.95, limits from 0 to 1, the lower first", text)};
+}
+
+}  // namespace bladefit

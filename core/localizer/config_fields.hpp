@@ -1,0 +1,53 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+#include "core/localizer.hpp"
+
+namespace bladefit {
+
+/// Calls visit(name, field) for every number, choice and flag of a configuration; of the leading-edge boxes for those
+/// in use. The names are the members' paths, such as "tolerance.rest_mm". `Config` is LocalizerConfig, const or not: a
+/// visitor of one that is not const may change the fields. A member that is added to one of the structs and is missing
+/// here does not compile, since a structured binding names all members.
+template <class Config, class Visit>
+void for_each_field(Config& config, Visit&& visit) {
+  auto& [capacity, refresh_per_push, probe_radius_mm, use_approach, edges, noise_floor_mm, determined_mm, start,
+         window_low, window_high, tolerance, mode, ratio, regions, locked, loss, loss_scale_mm, further_starts] =
+      config;
+  visit("capacity", capacity);
+  visit("refresh_per_push", refresh_per_push);
+  visit("probe_radius_mm", probe_radius_mm);
+  visit("use_approach", use_approach);
+  visit("edges", edges);
+  visit("noise_floor_mm", noise_floor_mm);
+  visit("determined_mm", determined_mm);
+  auto& [rotation, translation] = start;
+  for (auto& entry : rotation.reshaped()) visit("start.rotation", entry);
+  for (auto& entry : translation.reshaped()) visit("start.translation", entry);
+  visit("window_low", window_low);
+  visit("window_high", window_high);
+  auto& [boxes, box_count, leading_edge_mm, rest_mm, transition] = tolerance;
+  visit("tolerance.box_count", box_count);
+  const std::uint32_t boxes_in_use = std::min(box_count, std::uint32_t{ToleranceMap::kMaxBoxes});
+  for (std::uint32_t k = 0; k < boxes_in_use; ++k) {
+    auto& [patch, u_min, u_max, v_min, v_max] = boxes[k];
+    visit("tolerance.boxes.patch", patch);
+    visit("tolerance.boxes.u_min", u_min);
+    visit("tolerance.boxes.u_max", u_max);
+    visit("tolerance.boxes.v_min", v_min);
+    visit("tolerance.boxes.v_max", v_max);
+  }
+  visit("tolerance.leading_edge_mm", leading_edge_mm);
+  visit("tolerance.rest_mm", rest_mm);
+  visit("tolerance.transition", transition);
+  visit("mode", mode);
+  visit("ratio", ratio);
+  visit("regions", regions);
+  visit("locked", locked);
+  visit("loss", loss);
+  visit("loss_scale_mm", loss_scale_mm);
+  visit("further_starts", further_starts);
+}
+
+}  // namespace bladefit

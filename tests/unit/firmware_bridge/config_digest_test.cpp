@@ -1,0 +1,89 @@
+// Two sessions with different settings are never taken for one: each field of the configuration is in its digest.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <type_traits>
+
+#include "core/localizer/config_fields.hpp"
+#include "firmware_bridge/host/journal/config_digest.hpp"
+#include "firmware_bridge/host/journal/journal.hpp"
+
+namespace bladefit {
+namespace {
+
+LocalizerConfig config_with_boxes() {
+  LocalizerConfig config;
+  config.tolerance.box_count = 2;
+  config.tolerance.leading_edge_mm = 0.1;
+  config.tolerance.rest_mm = 1;
+  return config;
+}
+
+template <typename Field>
+void change(Field& field) {
+  if constexpr (std::is_enum_v<Field>) {
+    field = static_cast<Field>(static_cast<std::underlying_type_t<Field>>(field) + 1);
+  } else if constexpr (std::is_same_v<Field, bool>) {
+    field = !field;
+  } else {
+    field = static_cast<Field>(field + 1);
+  }
+}
+
+TEST(ConfigDigest, EachFieldChangesIt) {
+  const LocalizerConfig config = config_with_boxes();
+  std::size_t fields = 0;
+  for_each_field(config, [&fields](const char*, const auto&) { ++fields; });
+  // 16 fields beside start and tolerance, 12 numbers of the start pose, 4 of the tolerances, 5 a box.
+  EXPECT_EQ(fields, 16U + 12U + 4U + 2U * 5U);
+  std::set<std::uint64_t> digests{config_digest(config, 0)};
+  std::set<std::string> names;
+  for (std::size_t wanted = 0; wanted < fields; ++wanted) {
+    LocalizerConfig changed = config;
+    std::size_t index = 0;
+    std::string name;
+    for_each_field(changed, [&](const char* field_name, auto& field) {
+      if (index++ != wanted) return;
+      change(field);
+      name = field_name;
+    });
+    EXPECT_TRUE(digests.insert(config_digest(changed, 0)).second) << name;
+    names.insert(name);
+  }
+  EXPECT_TRUE(names.contains("further_starts"));
+  EXPECT_TRUE(digests.insert(config_digest(config, 1)).second) << "points of a refinement";
+}
+
+TEST(ConfigDigest, BoxesThatAreNotInUsePlayNoPart) {
+  LocalizerConfig config = config_with_boxes();
+  const std::uint64_t digest = config_digest(config, 0);
+  config.tolerance.boxes[2].patch = 7;
+  EXPECT_EQ(config_digest(config, 0), digest);
+}
+
+/// The digest of version 3 left out a field, so that it says nothing.
+TEST(ConfigDigest, JournalsOfTheVersionBeforeAreRefusedInOneLine) {
+  std::string folder = "/tmp/bladefit_digest_XXXXXX";
+  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  const std::string path = folder + "/journal.bin";
+  JournalHeader header = make_journal_header({1, 2}, 3);
+  header.version = 3;
+  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(&header), sizeof header);
+  JournalContent content;
+  const HostError error = read_journal(path, content);
+  EXPECT_EQ(error.fault, Fault::bad_input);
+  EXPECT_FALSE(content.exists);
+  EXPECT_EQ(error.message, path +
+                               ": journal of format version 3, whose check of the settings left out some of them; "
+                               "this program reads version 4: use the program that wrote it, or name another "
+                               "session folder");
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace bladefit
