@@ -1,4 +1,5 @@
 #include "tests/bench/bench_case.hpp"
+#include "tests/support/json_file.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -9,7 +9,8 @@
 #include "core/crc32.hpp"
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/localizer_fixtures.hpp"
-#include "tests/unit/tools/design_fixtures.hpp"
+#include "tests/support/made_surface.hpp"
+#include "tools/design/image/image_writer.hpp"
 
 namespace bladefit::testing {
 namespace {
