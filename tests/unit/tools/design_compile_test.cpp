@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 
+#include "tests/support/compile_case.hpp"
+#include "tests/support/reference_design.hpp"
 #include "tests/unit/tools/design_file_writing.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
 #include "tests/unit/tools/design_image_reading.hpp"
@@ -48,6 +50,12 @@ TEST(DesignCompile, WritesTheImageThatLoadDesignGives) {
     EXPECT_NE(output.find(part), std::string::npos) << part << " in\n" << output;
   }
   EXPECT_EQ(count_files(folder), 3U);
+}
+
+/// The designs that other tests open were compiled when the tests were built.
+TEST(DesignCompile, ReferenceDesignsOnFileAreThoseCompiledNow) {
+  for (const char* name : {"arl_fan", "pnsy_3patch"})
+    EXPECT_EQ(testing::reference_design(name).bytes(), testing::compile_case(testing::read_case(name))) << name;
 }
 
 TEST(DesignCompile, CArrayHoldsTheImage) {
