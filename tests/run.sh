@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is needed, builds, and runs every test. Closes with one line: "bladefit: N passed, N failed".
 #   tests/run.sh            format, lint, and all tests in the preset dev
-#   tests/run.sh PRESET     the tests of one preset only: dev, release, asan-ubsan or tsan (sanitizers build all anew)
+#   tests/run.sh PRESET     the tests of one preset only: dev, release, asan-ubsan or tsan (a sanitizer builds everything again)
 #   tests/run.sh lint       format and lint only; tests/lint.sh FOLDER lints one folder
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -66,12 +66,12 @@ tests_of() {
 case "${1:-all}" in
   all)
     check "format (clang-format)" formatted
-    check "lint (clang-tidy)" ./tests/lint.sh
+    check "lint (clang-tidy, house rules)" ./tests/lint.sh
     tests_of dev
     ;;
   lint)
     check "format (clang-format)" formatted
-    check "lint (clang-tidy)" ./tests/lint.sh
+    check "lint (clang-tidy, house rules)" ./tests/lint.sh
     ;;
   *) tests_of "$1" ;;
 esac

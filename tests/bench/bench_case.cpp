@@ -1,4 +1,6 @@
 #include "tests/bench/bench_case.hpp"
+#include "core/geometry/nearest/global_projection.hpp"
+#include "tests/support/json_file.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

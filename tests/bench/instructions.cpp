@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/localizer_fixtures.hpp"
 
 namespace bladefit::bench {

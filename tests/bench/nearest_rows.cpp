@@ -10,6 +10,7 @@
 #include "core/geometry/nearest/global_projection.hpp"
 #include "core/geometry/nearest/lane_projection.hpp"
 #include "tests/bench/bench_case.hpp"
+#include "tests/support/json_file.hpp"
 
 namespace bladefit::bench {
 namespace {

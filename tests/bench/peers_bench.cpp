@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/bench/bench_case.hpp"
+#include "tests/support/json_file.hpp"
 
 namespace bladefit::bench {
 namespace {

@@ -1,13 +1,13 @@
 #pragma once
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "tests/support/scratch_folder.hpp"
 
 namespace bladefit::testing {
 
@@ -31,22 +31,13 @@ inline Outcome run(const std::vector<std::string>& arguments) {
   return outcome;
 }
 
-/// A test with a folder of its own, which goes with it.
+/// A test with a folder of its own.
 class CommandTest : public ::testing::Test {
  protected:
-  CommandTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "bladefit_golden_XXXXXX").string();
-    scratch_ = ::mkdtemp(name.data());
-  }
-  ~CommandTest() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(scratch_, ignored);
-  }
-
   [[nodiscard]] std::string scratch(const std::string& name) const { return scratch_ / name; }
 
  private:
-  std::filesystem::path scratch_;
+  ScratchFolder scratch_;
 };
 
 }  // namespace bladefit::testing

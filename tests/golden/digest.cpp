@@ -1,6 +1,6 @@
 // Prints a digest of every verdict, report and revision of the designs of tests/data: a line for each design, mode and
 // way in (batch or stream), and for the choices of a fit. A change that keeps behaviour keeps every line, to the last
-// bit. Built twice: with the wide registers of the processor in use, and without.
+// bit. Linked twice: with the wide registers of the processor in use, and without (digest_plain.cpp).
 //   digest            all of it
 //   digest NAME...    the lines that begin with one of the names
 
@@ -11,13 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/compile_case.hpp"
+#include "tests/support/json_file.hpp"
 #include "tests/support/localizer_fixtures.hpp"
-
-#ifdef BLADEFIT_DIGEST_PLAIN
-#include "core/geometry/simd/lanes.hpp"
-// Stands in for that of the core, which the linker then leaves in its archive.
-bool bladefit::lanes_available() { return false; }
-#endif
 
 namespace bladefit::testing {
 namespace {
@@ -174,20 +170,20 @@ struct Program {
     }
   }
 
-  void modes(const ReferenceCase& c, const std::vector<ProbePoint>& points) const {
+  void modes(const ReferenceCase& c, const DesignImage& design, const std::vector<ProbePoint>& points) const {
     for (const auto& [word, mode] : kModes) {
       LocalizerConfig config = tolerant(c, points.size());
       config.mode = mode;
-      print(c.name + " " + word, reference_design(c.name).image(), config, points);
+      print(c.name + " " + word, design, config, points);
     }
   }
 
   /// Choices that change a fit, each alone, on one design.
-  void choices(const ReferenceCase& c, const std::vector<ProbePoint>& points) const {
+  void choices(const ReferenceCase& c, const DesignImage& design, const std::vector<ProbePoint>& points) const {
     const auto choice = [&](const char* name, auto change) {
       LocalizerConfig config = tolerant(c, points.size());
       change(config);
-      print(c.name + " " + name, reference_design(c.name).image(), config, points);
+      print(c.name + " " + name, design, config, points);
     };
     choice("edges_use", [](LocalizerConfig& f) { f.edges = EdgePolicy::use; });
     choice("huber", [](LocalizerConfig& f) { f.loss = Loss::huber; });
@@ -242,8 +238,10 @@ int main(int count, char** words) {
   const Program program{{words + 1, words + count}};
   for (const std::string& name : reference_case_names()) {
     const ReferenceCase c = read_case(name);
-    program.modes(c, points_of(c, "full"));
-    if (name == "dtmb4119") program.choices(c, points_of(c, "full"));
+    const CompiledDesign design(compile_case(c));
+    const std::vector<ProbePoint> points = points_of(c, "full");
+    program.modes(c, design.image(), points);
+    if (name == "dtmb4119") program.choices(c, design.image(), points);
   }
   return 0;
 }

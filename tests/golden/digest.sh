@@ -18,7 +18,7 @@ programs=("${@:-}")
 if [[ $# -eq 0 ]]; then
   cmake --preset release -DBUILD_TESTING=ON >/dev/null
   cmake --build --preset release --target golden_digest golden_digest_plain >&2
-  programs=(build/release/tests/golden_digest build/release/tests/golden_digest_plain)
+  programs=(build/release/tests/golden/golden_digest build/release/tests/golden/golden_digest_plain)
 fi
 
 folder=$(mktemp -d)

@@ -1,7 +1,10 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "tests/golden/command_fixture.hpp"
+#include "tests/support/json_file.hpp"
 #include "tests/support/reference_case.hpp"
 
 namespace bladefit::testing {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/golden/command_fixture.hpp"
+#include "tests/support/json_file.hpp"
 #include "tests/support/reference_case.hpp"
 
 namespace bladefit::testing {

@@ -10,7 +10,9 @@
 #include "core/fit/pose.hpp"
 #include "core/geometry/surface/surface.hpp"
 #include "tests/golden/command_fixture.hpp"
+#include "tests/support/json_file.hpp"
 #include "tests/support/reference_case.hpp"
+#include "tools/design/load_design.hpp"
 
 namespace bladefit::testing {
 namespace {

@@ -1,8 +1,11 @@
 #pragma once
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <modbus/modbus.h>
 #include <poll.h>
+#include <signal.h>
 #include <termios.h>
+#include <unistd.h>
 
 #include <array>
 #include <bit>
@@ -15,6 +18,7 @@
 #include <vector>
 
 #include "drivers/modbus/cmm_map_v1.hpp"
+#include "tests/hil/simulated_machine.hpp"
 #include "tests/support/process.hpp"
 #include "tools/simulate/check_sum.hpp"
 

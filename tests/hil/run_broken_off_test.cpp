@@ -7,13 +7,13 @@ namespace bladefit::hil {
 namespace {
 
 /// The session has ended by a fault told with `words`; its result is that of all points on disk.
-void expect_broken_off(Process& run, const Scratch& scratch, const std::string& words) {
+void expect_broken_off(Process& run, const ScratchFolder& scratch, const std::string& words) {
   EXPECT_EQ(run.exit_code(30s), 3) << run.out() << run.err();
   EXPECT_NE(run.err().find(words), std::string::npos) << run.err();
   for (const char* const path : {"result.json", "session/result.json"}) {
-    const std::string json = read_file(scratch / path);
+    const std::string json = read_whole(scratch / path);
     ASSERT_FALSE(json.empty()) << path << run.err();
-    const nlohmann::json result = nlohmann::json::parse(json);
+    const nlohmann::json result = testing::parse_json(json);
     const std::size_t points = result.at("points").size();
     EXPECT_GE(points, 60U);
     EXPECT_LT(points, 200U);
@@ -27,7 +27,7 @@ void expect_broken_off(Process& run, const Scratch& scratch, const std::string& 
 class RunBrokenOff : public testing::TestWithParam<Link> {};
 
 TEST_P(RunBrokenOff, ByAMachineThatIsGoneForGood) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   SimulatedMachine machine(machine_options(GetParam(), GetParam() == Link::modbus_tcp ? "0" : scratch / "cmm",
                                            kFewPoints, {"--rate", "100"}));
   Process run(
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(Links, RunBrokenOff, testing::Values(Link::modbus_tcp, 
                          });
 
 TEST(RunBrokenOffOnce, ByAMachineThatNumbersItsPointsAnew) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   std::optional<SimulatedMachine> machine(std::in_place,
                                           machine_options(Link::modbus_tcp, "0", kFewPoints, {"--rate", "100"}));
   const std::string port = std::to_string(machine->port());

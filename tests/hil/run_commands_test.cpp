@@ -26,7 +26,7 @@ struct CommandedSession {
   [[nodiscard]] std::uint16_t word(int address) const { return panel.inputs(address, 1).at(0); }
   [[nodiscard]] std::uint16_t points() const { return word(5); }
 
-  Scratch scratch;
+  ScratchFolder scratch;
   SimulatedMachine machine;
   Process run;
   RawModbus panel;
@@ -75,7 +75,7 @@ TEST(RunCommands, AreRefusedUnlessTheyAreEnabled) {
 }
 
 TEST(Panel, ConnectsAgainWhenTheHostHasComeBack) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kAllPoints, {"--rate", "100"}));
   std::vector<std::string> options = run_options(source_of(Link::modbus_tcp, machine.address()), scratch / "session",
                                                  scratch / "result.json", {"--headless"});

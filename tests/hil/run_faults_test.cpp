@@ -26,7 +26,7 @@ struct FaultySession {
         run(run_options(source_of(link, machine.address()), scratch / "session", scratch / "result.json", kUntilIdle)) {
   }
   std::string faults;
-  Scratch scratch;
+  ScratchFolder scratch;
   SimulatedMachine machine;
   Process run;
 };
@@ -35,7 +35,7 @@ class RunFaults : public testing::TestWithParam<Link> {};
 
 TEST_P(RunFaults, EveryFaultAloneAndAllTogetherLeaveTheResultBitForBit) {
   const std::string clean = clean_result(GetParam(), kFewPoints);
-  const nlohmann::json result = nlohmann::json::parse(clean);
+  const nlohmann::json result = testing::parse_json(clean);
   ASSERT_EQ(result.at("points").size(), 200U);
   // All at once, since most of their time is spent in waiting for lost answers.
   std::list<FaultySession> sessions;
@@ -46,8 +46,8 @@ TEST_P(RunFaults, EveryFaultAloneAndAllTogetherLeaveTheResultBitForBit) {
     SCOPED_TRACE(session.faults);
     EXPECT_EQ(session.run.exit_code(), expected_exit(clean)) << session.run.err();
     EXPECT_NE(session.machine.process().err().find("simulate: fault:"), std::string::npos) << "no fault struck";
-    EXPECT_TRUE(read_file(session.scratch / "result.json") == clean) << "the result differs\n"
-                                                                     << session.run.out() << session.run.err();
+    EXPECT_TRUE(read_whole(session.scratch / "result.json") == clean) << "the result differs\n"
+                                                                      << session.run.out() << session.run.err();
   }
 }
 

@@ -19,7 +19,7 @@ std::vector<std::int64_t> read_stamps(const std::string& file) {
 }
 
 TEST(RunLatency, FromTheMachinesRegistersToThePanels) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   SimulatedMachine machine(
       machine_options(Link::modbus_tcp, "0", kAllPoints, {"--rate", "200", "--stamp", scratch / "stamps"}));
   Process run(

@@ -92,7 +92,7 @@ void expect_newest(const PolledPanel& panel, const nlohmann::json& result) {
 }
 
 TEST(RunPanel, ShowsWhatTheResultSays) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints, {"--rate", "1000"}));
   Process run(
       run_options(source_of(Link::modbus_tcp, machine.address()), scratch / "session", scratch / "result.json"));
@@ -107,7 +107,7 @@ TEST(RunPanel, ShowsWhatTheResultSays) {
   const PolledPanel panel(port, 0, 92);
   run.signal(SIGINT);
   ASSERT_TRUE(run.exit_code(10s));
-  const nlohmann::json result = nlohmann::json::parse(read_file(scratch / "result.json"));
+  const nlohmann::json result = testing::read_json(scratch / "result.json");
   EXPECT_EQ(panel.word(0), 1U);
   EXPECT_EQ(panel.word(2), 2U);
   EXPECT_EQ(panel.word(3) & ~3U, 0U);

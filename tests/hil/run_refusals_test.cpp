@@ -10,7 +10,7 @@ namespace {
 /// Runs a session to its end and expects a failure told in one line with these words.
 void expect_failure(int exit_code, const std::string& source, const std::vector<std::string>& words) {
   SCOPED_TRACE(source);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   Process run(run_options(source, scratch / "session", scratch / "result.json", kUntilIdle));
   EXPECT_EQ(run.exit_code(30s), exit_code) << run.out();
   const std::string line = run.err();
@@ -34,7 +34,7 @@ TEST(RunRefusals, TheDeviceDoesNotExist) {
 }
 
 TEST(RunRefusals, AFolderThatWasThereStays) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   std::filesystem::create_directory(scratch / "mine");
   const std::string source = "modbus-tcp://127.0.0.1:1";
   Process there(run_options(source, scratch / "mine", scratch / "result.json", kUntilIdle));
@@ -52,7 +52,7 @@ TEST(RunRefusals, AnotherMapVersion) {
 
 TEST(RunRefusals, TheDeviceIsBusy) {
   for (const Link link : {Link::modbus_rtu, Link::serial}) {
-    const Scratch scratch;
+    const ScratchFolder scratch;
     SimulatedMachine machine(machine_options(link, scratch / "cmm", kAllPoints, {"--rate", "100"}));
     const std::string source = source_of(link, machine.address());
     Process first(run_options(source, scratch / "session", scratch / "result.json"));
@@ -65,7 +65,7 @@ TEST(RunRefusals, TheDeviceIsBusy) {
 TEST(RunRefusals, ThePanelsPortIsBusy) {
   SimulatedMachine other(machine_options(Link::modbus_tcp, "0", kFewPoints));
   SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints));
-  const Scratch scratch;
+  const ScratchFolder scratch;
   Process run({BLADEFIT_COMMAND, "run", "--design", kBlade, "--source", source_of(Link::modbus_tcp, machine.address()),
                "--leading-edge", "u:0.4:0.6", "--tolerance", "0.1", "--session", scratch / "session", "--panel",
                other.address(), "--headless"});

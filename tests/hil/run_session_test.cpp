@@ -6,7 +6,9 @@
 namespace bladefit::hil {
 namespace {
 
-std::string place_for(Link link, const Scratch& scratch) { return link == Link::modbus_tcp ? "0" : scratch / "cmm"; }
+std::string place_for(Link link, const ScratchFolder& scratch) {
+  return link == Link::modbus_tcp ? "0" : scratch / "cmm";
+}
 
 /// Where the same machine is to be started again.
 std::string same_place(Link link, const SimulatedMachine& machine) {
@@ -22,7 +24,7 @@ std::string test_name(const testing::TestParamInfo<Link>& tested) {
 class RunSession : public testing::TestWithParam<Link> {};
 
 void expect_agreement(const std::string& result, const std::string& truth) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   std::ofstream(scratch / "result.json") << result;
   Process check({"python3", data_file("check.py"), data_file(truth), scratch / "result.json"});
   EXPECT_EQ(check.exit_code(), 0) << check.out() << check.err();
@@ -35,7 +37,7 @@ TEST_P(RunSession, AgreesWithTheIndependentTruth) {
 
 TEST_P(RunSession, GoesOnAfterAPowerCutOfTheHost) {
   const std::string clean = clean_result(GetParam(), kFewPoints);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   SimulatedMachine machine(machine_options(GetParam(), place_for(GetParam(), scratch), kFewPoints, {"--rate", "100"}));
   const std::vector<std::string> options =
       run_options(source_of(GetParam(), machine.address()), scratch / "session", scratch / "result.json", kUntilIdle);
@@ -47,12 +49,12 @@ TEST_P(RunSession, GoesOnAfterAPowerCutOfTheHost) {
   }
   Process run(options);
   EXPECT_EQ(run.exit_code(), expected_exit(clean)) << run.err();
-  EXPECT_TRUE(read_file(scratch / "result.json") == clean) << run.out() << run.err();
+  EXPECT_TRUE(read_whole(scratch / "result.json") == clean) << run.out() << run.err();
 }
 
 TEST_P(RunSession, GoesOnAfterAPowerCutOfTheMachine) {
   const std::string clean = clean_result(GetParam(), kFewPoints);
-  const Scratch scratch;
+  const ScratchFolder scratch;
   std::optional<SimulatedMachine> machine(
       std::in_place, machine_options(GetParam(), place_for(GetParam(), scratch), kFewPoints, {"--rate", "100"}));
   const std::string place = same_place(GetParam(), *machine);
@@ -64,20 +66,20 @@ TEST_P(RunSession, GoesOnAfterAPowerCutOfTheMachine) {
   std::this_thread::sleep_for(500ms);
   machine.emplace(machine_options(GetParam(), place, kFewPoints, {"--rate", "100"}));
   EXPECT_EQ(run.exit_code(), expected_exit(clean)) << run.err();
-  EXPECT_TRUE(read_file(scratch / "result.json") == clean) << run.out() << run.err();
+  EXPECT_TRUE(read_whole(scratch / "result.json") == clean) << run.out() << run.err();
 }
 
 TEST_P(RunSession, EndsCleanlyOnInterrupt) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   SimulatedMachine machine(machine_options(GetParam(), place_for(GetParam(), scratch), kAllPoints, {"--rate", "200"}));
   Process run(run_options(source_of(GetParam(), machine.address()), scratch / "session", scratch / "result.json"));
   ASSERT_TRUE(wait_for_points(run, 150)) << run.err();
   run.signal(SIGINT);
   const std::optional<int> exit_code = run.exit_code(10s);
-  const std::string json = read_file(scratch / "result.json");
+  const std::string json = read_whole(scratch / "result.json");
   ASSERT_FALSE(json.empty()) << run.err();
   EXPECT_EQ(exit_code, expected_exit(json));
-  const nlohmann::json result = nlohmann::json::parse(json);
+  const nlohmann::json result = testing::parse_json(json);
   EXPECT_EQ(result.at("status"), "converged");
   EXPECT_GE(result.at("points").size(), 150U);
   EXPECT_LT(result.at("points").size(), 2000U);

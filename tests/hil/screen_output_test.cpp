@@ -42,7 +42,7 @@ std::string on_a_terminal(const std::vector<std::string>& arguments, const std::
 bool has_colour(const std::string& output) { return std::regex_search(output, std::regex("\x1b\\[[0-9;]*m")); }
 
 TEST(ScreenOutput, NoColorTakesTheColoursOut) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints, {"--rate", "100"}));
   const Process host(
       run_options(source_of(Link::modbus_tcp, machine.address()), scratch / "session", scratch / "result.json"));
@@ -60,7 +60,7 @@ TEST(ScreenOutput, NoColorTakesTheColoursOut) {
 }
 
 TEST(ScreenOutput, NoEscapeCodesWhereThereIsNoTerminal) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints, {"--rate", "100"}));
   Process run(run_options(source_of(Link::modbus_tcp, machine.address()), scratch / "session", scratch / "result.json",
                           {"--until-idle", "3"}));

@@ -74,19 +74,19 @@ inline bool wait_for_points(const Process& run, std::uint32_t points) {
 
 /// What a session that nothing disturbed makes of these points.
 inline std::string clean_result(Link link, const std::string& points) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   const std::string place = link == Link::modbus_tcp ? "0" : scratch / "cmm";
   SimulatedMachine machine(machine_options(link, place, points, {"--rate", "0"}));
   Process run(
       run_options(source_of(link, machine.address()), scratch / "session", scratch / "result.json", kUntilIdle));
   const std::optional<int> exit_code = run.exit_code();
   if (!exit_code || *exit_code > 1) throw std::runtime_error("the clean session failed: " + run.err());
-  return read_file(scratch / "result.json");
+  return read_whole(scratch / "result.json");
 }
 
 /// Exit code of a session with this result: 1 when a point is out of tolerance.
 inline int expected_exit(const std::string& json) {
-  const nlohmann::json result = nlohmann::json::parse(json);
+  const nlohmann::json result = testing::parse_json(json);
   for (const nlohmann::json& point : result.at("points")) {
     if (point.at("state") == "out") return 1;
   }

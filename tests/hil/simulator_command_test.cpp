@@ -38,7 +38,7 @@ TEST(SimulatorCommand, RefusesWrongOptions) {
 }
 
 TEST(SimulatorCommand, RefusesBadPoints) {
-  Scratch scratch;
+  ScratchFolder scratch;
   const std::string file = scratch / "points.csv";
   const auto expect_bad = [&](const std::string& content, const std::string& words) {
     std::ofstream(file) << content;
@@ -63,7 +63,7 @@ TEST(SimulatorCommand, RefusesBadPoints) {
 }
 
 TEST(SimulatorCommand, AcceptsColumnsInAnyOrderCommentsAndForeignLineEnds) {
-  Scratch scratch;
+  ScratchFolder scratch;
   std::ofstream(scratch / "points.csv") << "# a comment\r\npath, z, y, x\r\n\r\n4, 3, 2, 1\r\n";
   SimulatedMachine machine({"--points", scratch / "points.csv", "--transport", "modbus-tcp", "--port", "0"});
   const RawModbus reader = RawModbus::tcp(machine.port());
@@ -76,17 +76,17 @@ TEST(SimulatorCommand, AcceptsColumnsInAnyOrderCommentsAndForeignLineEnds) {
 TEST(SimulatorCommand, ABusyPortOrDeviceIsADeviceFailure) {
   SimulatedMachine machine(tcp({"--port", "0"}));
   expect_refusal(tcp({"--port", std::to_string(machine.port())}), 3, "Address already in use");
-  Scratch scratch;
+  ScratchFolder scratch;
   std::ofstream(scratch / "file") << "somebody's";
   expect_refusal({"--points", kPoints, "--transport", "serial", "--device", scratch / "file"}, 3,
                  "is not a symbolic link");
-  EXPECT_EQ(read_file(scratch / "file"), "somebody's");
+  EXPECT_EQ(read_whole(scratch / "file"), "somebody's");
   expect_refusal({"--points", kPoints, "--transport", "serial", "--device", scratch / "none/cmm"}, 3,
                  "cannot make the link");
 }
 
 TEST(SimulatorCommand, TakesOverTheLinkOfAKilledMachine) {
-  Scratch scratch;
+  ScratchFolder scratch;
   const std::vector<std::string> options = {"--points", kPoints, "--transport", "serial", "--device", scratch / "cmm"};
   SimulatedMachine killed(options);
   killed.process().power_off();
@@ -105,7 +105,7 @@ TEST(SimulatorCommand, EndsCleanlyOnBothSignals) {
 }
 
 TEST(SimulatorCommand, EndsWhenDoneAndStampsEveryRecord) {
-  Scratch scratch;
+  ScratchFolder scratch;
   const auto before = Clock::now().time_since_epoch() / 1ns;
   SimulatedMachine machine(tcp({"--port", "0", "--rate", "2000", "--stamp", scratch / "stamps", "--exit-when-done"}));
   {

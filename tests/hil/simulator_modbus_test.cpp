@@ -53,7 +53,7 @@ TEST(SimulatorModbus, EveryPointComesOnceAskedForInOrderAndExact) {
 }
 
 TEST(SimulatorModbus, InchesBecomeMillimetres) {
-  Scratch scratch;
+  ScratchFolder scratch;
   std::ofstream(scratch / "points.csv") << "x,y,z\n1,2,-3\n";
   SimulatedMachine machine(tcp_options({"--rate", "0", "--units", "in"}, scratch / "points.csv"));
   const RawModbus reader = RawModbus::tcp(machine.port());
@@ -175,7 +175,7 @@ TEST(SimulatorModbus, FaultDisconnectClosesTheLink) {
 }
 
 TEST(SimulatorModbus, RtuServesTheSameMapAndALinkThatOutlivesAHangUp) {
-  Scratch scratch;
+  ScratchFolder scratch;
   const std::string device = scratch / "cmm";
   SimulatedMachine machine({"--points", kPoints, "--transport", "modbus-rtu", "--device", device, "--rate", "0"});
   EXPECT_EQ(machine.address(), device);
@@ -194,7 +194,7 @@ TEST(SimulatorModbus, RtuServesTheSameMapAndALinkThatOutlivesAHangUp) {
 }
 
 TEST(SimulatorModbus, RtuPassesOverNoiseAndOtherUnits) {
-  Scratch scratch;
+  ScratchFolder scratch;
   SimulatedMachine machine({"--points", kPoints, "--transport", "modbus-rtu", "--device", scratch / "cmm"});
   const RawModbus reader = RawModbus::rtu(scratch / "cmm");
   modbus_set_slave(reader.context(), 7);

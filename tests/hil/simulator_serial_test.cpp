@@ -15,7 +15,7 @@ struct Line {
   explicit Line(const std::vector<std::string>& more)
       : machine(std::vector<std::string>{"--points", kPoints, "--transport", "serial", "--device", scratch / "cmm"} +
                 more) {}
-  Scratch scratch;
+  ScratchFolder scratch;
   SimulatedMachine machine;
 };
 

@@ -8,6 +8,7 @@
 
 #include "config/device_settings.hpp"
 #include "config/session_settings.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace bladefit {
 namespace {
@@ -15,24 +16,11 @@ namespace {
 const std::string kShipped = std::string(BLADEFIT_TEST_DATA) + "/../../config/";
 
 /// A file that is there as long as the test.
-class File {
- public:
-  explicit File(const std::string& text) {
-    std::string name = "/tmp/bladefit_config_XXXXXX";
-    folder_ = ::mkdtemp(name.data());
-    path = folder_ + "/a.toml";
-    std::ofstream(path, std::ios::binary) << text;
-  }
+struct File {
+  explicit File(const std::string& text) : path(folder.write("a.toml", text)) {}
 
-  ~File() { std::filesystem::remove_all(folder_); }
-
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-
+  bladefit::testing::ScratchFolder folder;
   std::string path;
-
- private:
-  std::string folder_;
 };
 
 TEST(ShippedFiles, AllLoad) {
@@ -120,7 +108,7 @@ void expect_error(const BadFile& bad, const Load& load) {
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 
-class DeviceErrors : public testing::TestWithParam<BadFile> {};
+class DeviceErrors : public ::testing::TestWithParam<BadFile> {};
 
 TEST_P(DeviceErrors, NameFileLineKeyAndMend) {
   expect_error(GetParam(), [](const std::string& path) {
@@ -134,7 +122,7 @@ TEST_P(DeviceErrors, NameFileLineKeyAndMend) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, DeviceErrors,
-    testing::Values(
+    ::testing::Values(
         BadFile{"", ":1: key 'kind': is missing"}, BadFile{"kind = ", ":1: "},
         BadFile{"kind = \"canbus\"", ":1: key 'kind': 'canbus' is none of: modbus-tcp"},
         BadFile{"kind = 3", ":1: key 'kind': must be a text in quotes, not a whole number"},
@@ -171,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"kind = \"replay\"\n[replay]\nunits = \"ft\"\n", ":3: key 'replay.units': 'ft' is none of: mm, in"},
         BadFile{"kind = \"serial\"\nkind = \"dro\"\n", ":2: "}));
 
-class SessionErrors : public testing::TestWithParam<BadFile> {};
+class SessionErrors : public ::testing::TestWithParam<BadFile> {};
 
 TEST_P(SessionErrors, NameFileLineKeyAndMend) {
   expect_error(GetParam(), [](const std::string& path) {
@@ -182,23 +170,23 @@ TEST_P(SessionErrors, NameFileLineKeyAndMend) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, SessionErrors,
-    testing::Values(BadFile{"desing = \"a\"", ":1: unknown key 'desing'; did you mean 'design'?"},
-                    BadFile{"design = \"\"", ":1: key 'design': is empty"},
-                    BadFile{"source = \"tcp://a:1\"", ":1: key 'source': source 'tcp://a:1': unknown transport"},
-                    BadFile{"until_idle = 0", ":1: key 'until_idle': 0 is out of range"},
-                    BadFile{"capacity = 5", ":1: key 'capacity': 5 is out of range"},
-                    BadFile{"[panel]\nport = 70000", ":2: key 'panel.port': 70000 is out of range"},
-                    BadFile{"[panel]\nallow = [1]", ":2: key 'panel.allow': must be a list of texts"},
-                    BadFile{"[panel]\nallow = [\"x\"]", ":2: key 'panel.allow': 'x' is no numeric address"},
-                    BadFile{"[fit]\nmode = \"best\"", ":2: key 'fit.mode': 'best' is none of: least_squares, minimax"},
-                    BadFile{"[fit]\nleading_edge = \"u:0:1\"", ":2: key 'fit.leading_edge': must be a list of texts"},
-                    BadFile{"[fit]\nleading_edge = [\"w:0:1\"]",
-                            ":2: key 'fit.leading_edge': 'w:0:1' is no leading-edge box"},
-                    BadFile{"[fit]\ntolerance = -1", ":2: key 'fit.tolerance': -1 is out of range"},
-                    BadFile{"[fit]\nratio = 0.5", ":2: key 'fit.ratio': 0.5 is out of range"},
-                    BadFile{"[fit]\nwindow = \"0.9:0.1\"", ":2: key 'fit.window': '0.9:0.1' is no window"},
-                    BadFile{"[fit]\nstart = \"\"", ":2: key 'fit.start': is empty; give a path"},
-                    BadFile{"[fit]\nedges = \"keep\"", ":2: key 'fit.edges': 'keep' is none of: skip, use"}));
+    ::testing::Values(
+        BadFile{"desing = \"a\"", ":1: unknown key 'desing'; did you mean 'design'?"},
+        BadFile{"design = \"\"", ":1: key 'design': is empty"},
+        BadFile{"source = \"tcp://a:1\"", ":1: key 'source': source 'tcp://a:1': unknown transport"},
+        BadFile{"until_idle = 0", ":1: key 'until_idle': 0 is out of range"},
+        BadFile{"capacity = 5", ":1: key 'capacity': 5 is out of range"},
+        BadFile{"[panel]\nport = 70000", ":2: key 'panel.port': 70000 is out of range"},
+        BadFile{"[panel]\nallow = [1]", ":2: key 'panel.allow': must be a list of texts"},
+        BadFile{"[panel]\nallow = [\"x\"]", ":2: key 'panel.allow': 'x' is no numeric address"},
+        BadFile{"[fit]\nmode = \"best\"", ":2: key 'fit.mode': 'best' is none of: least_squares, minimax"},
+        BadFile{"[fit]\nleading_edge = \"u:0:1\"", ":2: key 'fit.leading_edge': must be a list of texts"},
+        BadFile{"[fit]\nleading_edge = [\"w:0:1\"]", ":2: key 'fit.leading_edge': 'w:0:1' is no leading-edge box"},
+        BadFile{"[fit]\ntolerance = -1", ":2: key 'fit.tolerance': -1 is out of range"},
+        BadFile{"[fit]\nratio = 0.5", ":2: key 'fit.ratio': 0.5 is out of range"},
+        BadFile{"[fit]\nwindow = \"0.9:0.1\"", ":2: key 'fit.window': '0.9:0.1' is no window"},
+        BadFile{"[fit]\nstart = \"\"", ":2: key 'fit.start': is empty; give a path"},
+        BadFile{"[fit]\nedges = \"keep\"", ":2: key 'fit.edges': 'keep' is none of: skip, use"}));
 
 TEST(SessionFile, NamesAFileThatCannotBeRead) {
   SessionSettings settings;

@@ -8,8 +8,9 @@
 
 #include "core/geometry/nearest/distance_certificate.hpp"
 #include "tests/support/localizer_fixtures.hpp"
+#include "tests/support/made_surface.hpp"
 #include "tests/unit/core/bernstein.hpp"
-#include "tests/unit/tools/design_fixtures.hpp"
+#include "tools/design/image/image_writer.hpp"
 
 namespace bladefit::testing {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/fit/motion_lock.hpp"
+#include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/localizer_fixtures.hpp"
 
 namespace bladefit::testing {

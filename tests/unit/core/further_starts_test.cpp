@@ -1,6 +1,7 @@
 // The modes beside least squares have several optima: the best of several starts is kept.
 #include <gtest/gtest.h>
 
+#include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/localizer_fixtures.hpp"
 
 namespace bladefit::testing {
@@ -78,52 +79,61 @@ TEST(CoreFurtherStarts, FindNoWorseOptimaAndSometimesBetterOnes) {
   EXPECT_GT(rescued, 0) << "programs that end nowhere from the least-squares optimum";
 }
 
+bool same_pose(const Pose& a, const Pose& b) { return a.rotation == b.rotation && a.translation == b.translation; }
+
+void expect_same_verdicts(const Localizer& a, const Localizer& b, const std::vector<ProbePoint>& points) {
+  Verdict of_a, of_b;
+  for (const ProbePoint& point : points) {
+    ASSERT_EQ(a.verdict_of(point.sequence, of_a), Status::ok);
+    ASSERT_EQ(b.verdict_of(point.sequence, of_b), Status::ok);
+    ASSERT_EQ(of_a.foot.distance, of_b.foot.distance);
+  }
+}
+
+/// No point is moved farther than 0.05 mm from where the other pose puts it.
+void expect_near(const Pose& a, const Pose& b, const std::vector<ProbePoint>& points) {
+  for (const ProbePoint& point : points) {
+    const Vec3 x(point.position.data());
+    ASSERT_LT((apply(a, x) - apply(b, x)).norm(), 0.05);
+  }
+}
+
 /// While they are under way nothing is told of them, and a point that comes after all ends them.
 TEST(CoreFurtherStarts, LeavePoseAndVerdictsAloneAndEndWhenAPointComes) {
+  constexpr int kLastSweep = 100, kFurtherStarts = 100;  // steps of ten points
   const ReferenceCase c = read_case("dtmb4119");
   const CompiledDesign& design = reference_design("dtmb4119");
   std::vector<ProbePoint> points = thinned(c, 0, 10);
   const ProbePoint last = points.back();
   points.pop_back();
   const LocalizerConfig config = config_for(c, points.size() + 1, FitMode::minimax);
-  const Batch alone(design, config, points);
-  LocalizerConfig plain = config;
-  plain.further_starts = 0;
-  const Batch reference(design, plain, points);
-  ASSERT_EQ(refine_fully(*reference), Status::ok);
-  const Pose optimum = reference->fit().pose;
-  const auto at_optimum = [&] {
-    const Pose pose = alone->fit().pose;
-    return pose.rotation == optimum.rotation && pose.translation == optimum.translation;
-  };
-  std::uint32_t there = 0;
-  Verdict verdict, wanted;
-  while (alone->refine(10) == Status::more_work) {
-    if (!at_optimum()) {
-      ASSERT_EQ(there, 0U);
-      continue;
-    }
-    if (++there < 100) continue;  // the last sweep about the optimum
-    for (const ProbePoint& point : points) {
-      ASSERT_EQ(alone->verdict_of(point.sequence, verdict), Status::ok);
-      ASSERT_EQ(reference->verdict_of(point.sequence, wanted), Status::ok);
-      ASSERT_EQ(verdict.foot.distance, wanted.foot.distance);
-    }
-    if (there == 200) break;
+  LocalizerConfig without = config;
+  without.further_starts = 0;
+  const Batch plain(design, without, points);
+  ASSERT_EQ(refine_fully(*plain), Status::ok);
+  const Pose optimum = plain->fit().pose;
+
+  const Batch sought(design, config, points);
+  while (!same_pose(sought->fit().pose, optimum)) ASSERT_EQ(sought->refine(10), Status::more_work);
+  for (int step = 0; step < kLastSweep; ++step) {
+    ASSERT_EQ(sought->refine(10), Status::more_work);
+    ASSERT_TRUE(same_pose(sought->fit().pose, optimum));
   }
-  ASSERT_EQ(there, 200U);
-  EXPECT_EQ(alone->push(last, verdict), Status::ok);
-  const Pose pushed = alone->fit().pose;
-  for (const ProbePoint& point : points) {
-    const Vec3 x(point.position.data());
-    ASSERT_LT((apply(pushed, x) - apply(optimum, x)).norm(), 0.05);
+  for (int step = 0; step < kFurtherStarts; ++step) {
+    ASSERT_EQ(sought->refine(10), Status::more_work);
+    ASSERT_TRUE(same_pose(sought->fit().pose, optimum));
+    expect_same_verdicts(*sought, *plain, points);
   }
-  alone->conclude();
-  ASSERT_EQ(refine_fully(*alone), Status::ok);
+
+  Verdict verdict;
+  EXPECT_EQ(sought->push(last, verdict), Status::ok);
+  expect_near(sought->fit().pose, optimum, points);
+  sought->conclude();
+  ASSERT_EQ(refine_fully(*sought), Status::ok);
   points.push_back(last);
   const Batch batch(design, config, points);
   ASSERT_EQ(refine_fully(*batch), Status::ok);
-  EXPECT_NEAR(alone->fit().tolerance_factor_mm, batch->fit().tolerance_factor_mm, 1e-9);
+  EXPECT_NEAR(sought->fit().tolerance_factor_mm, batch->fit().tolerance_factor_mm, 1e-9);
 }
 
 }  // namespace

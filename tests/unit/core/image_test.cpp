@@ -9,7 +9,8 @@
 #include "core/crc32.hpp"
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/localizer_fixtures.hpp"
-#include "tests/unit/tools/design_fixtures.hpp"
+#include "tests/support/made_surface.hpp"
+#include "tools/design/image/image_writer.hpp"
 
 namespace bladefit::testing {
 namespace {
@@ -35,7 +36,7 @@ Status status_of(std::span<const std::byte> bytes) {
   return DesignImage::open(bytes, image);
 }
 
-void mend_crc(std::vector<std::byte>& bytes) {
+void fix_crc(std::vector<std::byte>& bytes) {
   const std::uint32_t crc = image_crc(bytes);
   std::memcpy(&bytes[offsetof(ImageHeader, crc32)], &crc, sizeof crc);
 }
@@ -88,7 +89,7 @@ TEST(DesignImage, EveryForgedByteIsRefusedOrHarmless) {
     for (const int bit : {0, 7}) {
       const std::byte before = bytes[k];
       bytes[k] ^= std::byte{1} << bit;
-      mend_crc(bytes);
+      fix_crc(bytes);
       DesignImage image;
       if (DesignImage::open(bytes, image) == Status::ok) {
         ++accepted;
@@ -133,7 +134,7 @@ TEST(DesignImage, CutOffOrTooLongIsRefused) {
   // The length field agrees with the cut, the CRC too: then the arrays do not fit.
   const std::uint64_t length = bytes.size();
   std::memcpy(&bytes[offsetof(ImageHeader, total_size)], &length, sizeof length);
-  mend_crc(bytes);
+  fix_crc(bytes);
   EXPECT_EQ(status_of(bytes), Status::bad_content);
 }
 
@@ -164,75 +165,94 @@ TEST(DesignImage, IsWrittenOnlyWhenAccepted) {
   EXPECT_EQ(&image.header(), before);
 }
 
-template <class T>
-T* array_at(std::vector<std::byte>& bytes, std::uint64_t ImageHeader::*offset) {
-  return reinterpret_cast<T*>(bytes.data() + reinterpret_cast<const ImageHeader*>(bytes.data())->*offset);
+/// The parts of an image, to be written into.
+class Parts {
+ public:
+  explicit Parts(std::vector<std::byte>& bytes) : bytes_(bytes) {}
+
+  [[nodiscard]] ImageHeader* header() const { return reinterpret_cast<ImageHeader*>(bytes_.data()); }
+  [[nodiscard]] ImagePatch* patch() const { return at<ImagePatch>(header()->patches_offset); }
+  [[nodiscard]] ImageSpan* span() const { return at<ImageSpan>(header()->spans_offset); }
+  [[nodiscard]] ImageLeaf* leaf() const { return at<ImageLeaf>(header()->leaves_offset); }
+  [[nodiscard]] ImageNode* node() const { return at<ImageNode>(header()->nodes_offset); }
+  [[nodiscard]] ImageNode& last_node() const { return node()[header()->node_count - 1]; }
+  [[nodiscard]] double* taylor() const { return at<double>(header()->taylor_offset); }
+  [[nodiscard]] double* number() const { return at<double>(header()->coefficients_offset); }
+
+ private:
+  template <class T>
+  [[nodiscard]] T* at(std::uint64_t offset) const {
+    return reinterpret_cast<T*>(bytes_.data() + offset);
+  }
+
+  std::vector<std::byte>& bytes_;
+};
+
+/// Whether the image is refused for its content after a forgery by hand, its CRC made right again. Each of those below
+/// would lead the search astray or out of memory.
+template <class Change>
+bool refused(Change change) {
+  std::vector<std::byte> bytes = small_image();
+  change(Parts(bytes));
+  fix_crc(bytes);
+  return status_of(bytes) == Status::bad_content;
 }
 
-/// Forgeries by hand, each of which would lead the search astray or out of memory.
 TEST(DesignImage, ContradictionsAreRefused) {
-  const auto refused = [](auto change) {
-    std::vector<std::byte> bytes = small_image();
-    change(bytes);
-    mend_crc(bytes);
-    return status_of(bytes) == Status::bad_content;
-  };
-  const auto patch = [](auto& b) { return array_at<ImagePatch>(b, &ImageHeader::patches_offset); };
-  const auto span = [](auto& b) { return array_at<ImageSpan>(b, &ImageHeader::spans_offset); };
-  const auto leaf = [](auto& b) { return array_at<ImageLeaf>(b, &ImageHeader::leaves_offset); };
-  const auto node = [](auto& b) { return array_at<ImageNode>(b, &ImageHeader::nodes_offset); };
-  const auto last = [](auto& b) -> ImageNode& {
-    const auto count = reinterpret_cast<const ImageHeader*>(b.data())->node_count;
-    return array_at<ImageNode>(b, &ImageHeader::nodes_offset)[count - 1];
-  };
-  const auto taylor = [](auto& b) { return array_at<double>(b, &ImageHeader::taylor_offset); };
-  const auto number = [](auto& b) { return array_at<double>(b, &ImageHeader::coefficients_offset); };
-  const auto header = [](auto& b) { return reinterpret_cast<ImageHeader*>(b.data()); };
-  EXPECT_TRUE(refused([&](auto& b) { patch(b)->degree_u = 10; }));
-  EXPECT_TRUE(refused([&](auto& b) { patch(b)->degree_v = 0; }));
-  EXPECT_TRUE(refused([&](auto& b) { patch(b)->spans_u = 0xFFFFFFFFU; }));
-  EXPECT_TRUE(refused([&](auto& b) { patch(b)->first_break_u = 0xFFFFFFFFU; }));
-  EXPECT_TRUE(refused([&](auto& b) { patch(b)[1].first_span = 0; }));
-  EXPECT_TRUE(refused([&](auto& b) { patch(b)->rational = 0; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->patch = 1; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->ends = 0; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->ends |= 256U; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->ends = (span(b)->ends & 15U) | ((~span(b)->ends & 15U) << 4U); }));
-  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->node = leaf(b)[1].node; }));
-  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->span = 1; }));
-  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->s_max = 0.75; }));
-  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->t_min = NAN; }));
-  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->bounds.middle[1] = INFINITY; }));
-  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->bounds.spread[4][2] = -1.0; }));
-  EXPECT_TRUE(refused([&](auto& b) { leaf(b)->bounds.self_low[3] = 1e9; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->leaves_offset = ~std::uint64_t{7}; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->first_coefficient = ~std::uint64_t{0}; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->first_coefficient = header(b)->coefficient_count - 4; }));
-  EXPECT_TRUE(refused([&](auto& b) { span(b)->cone_cosine = NAN; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->child[0] = kNoChild; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->child[0] = 0; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->child[0] = 0x7FFFFFFFU; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->child[0] = kLeafChild; }));
-  EXPECT_TRUE(refused([&](auto& b) { last(b).child[0] = kLeafChild | 0x7FFFFFFEU; }));
-  EXPECT_TRUE(refused([&](auto& b) { last(b).child[1] = last(b).child[0]; }));
-  EXPECT_TRUE(refused([&](auto& b) { last(b).high[0][0] += 1e6F; }));
-  EXPECT_TRUE(refused([&](auto& b) { last(b).high[1][0] = last(b).low[1][0]; }));
-  EXPECT_TRUE(refused([&](auto& b) { node(b)->low[2][0] = NAN; }));
-  EXPECT_TRUE(refused([&](auto& b) { taylor(b)[0] += 1e-6; }));
-  EXPECT_TRUE(refused([&](auto& b) { taylor(b)[7] = NAN; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->taylor_offset = ~std::uint64_t{7}; }));
-  EXPECT_TRUE(refused([&](auto& b) { number(b)[0] = NAN; }));
-  EXPECT_TRUE(refused([&](auto& b) { number(b)[0] = 1e6; }));
-  EXPECT_TRUE(refused([&](auto& b) { number(b)[3] = 0.0; }));
-  EXPECT_TRUE(refused([&](auto& b) { number(b)[3] = -1.0; }));
-  EXPECT_TRUE(refused([&](auto& b) { number(b)[3] = INFINITY; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->outward = 0; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->design_unit = 2; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->spare = 1; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->nodes_offset = ~std::uint64_t{7}; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->coefficient_count = ~std::uint64_t{0}; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->patches_offset += 4; }));
-  EXPECT_TRUE(refused([&](auto& b) { header(b)->span_count = 0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()->degree_u = 10; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()->degree_v = 0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()->spans_u = 0xFFFFFFFFU; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()->first_break_u = 0xFFFFFFFFU; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()[1].first_span = 0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()->rational = 0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->patch = 1; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->ends = 0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->ends |= 256U; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->ends = (p.span()->ends & 15U) | ((~p.span()->ends & 15U) << 4U); }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->first_coefficient = ~std::uint64_t{0}; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->first_coefficient = p.header()->coefficient_count - 4; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->cone_cosine = NAN; }));
+}
+
+TEST(DesignImage, ContradictoryLeavesAndNodesAreRefused) {
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->node = p.leaf()[1].node; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->span = 1; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->s_max = 0.75; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->t_min = NAN; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.middle[1] = INFINITY; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.spread[4][2] = -1.0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.self_low[3] = 1e9; }));
+  EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = kNoChild; }));
+  EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = 0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = 0x7FFFFFFFU; }));
+  EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = kLeafChild; }));
+  EXPECT_TRUE(refused([](Parts p) { p.last_node().child[0] = kLeafChild | 0x7FFFFFFEU; }));
+  EXPECT_TRUE(refused([](Parts p) { p.last_node().child[1] = p.last_node().child[0]; }));
+  EXPECT_TRUE(refused([](Parts p) { p.last_node().high[0][0] += 1e6F; }));
+  EXPECT_TRUE(refused([](Parts p) { p.last_node().high[1][0] = p.last_node().low[1][0]; }));
+  EXPECT_TRUE(refused([](Parts p) { p.node()->low[2][0] = NAN; }));
+}
+
+TEST(DesignImage, ContradictoryNumbersAreRefused) {
+  EXPECT_TRUE(refused([](Parts p) { p.taylor()[0] += 1e-6; }));
+  EXPECT_TRUE(refused([](Parts p) { p.taylor()[7] = NAN; }));
+  EXPECT_TRUE(refused([](Parts p) { p.number()[0] = NAN; }));
+  EXPECT_TRUE(refused([](Parts p) { p.number()[0] = 1e6; }));
+  EXPECT_TRUE(refused([](Parts p) { p.number()[3] = 0.0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.number()[3] = -1.0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.number()[3] = INFINITY; }));
+}
+
+TEST(DesignImage, ContradictoryHeadersAreRefused) {
+  EXPECT_TRUE(refused([](Parts p) { p.header()->leaves_offset = ~std::uint64_t{7}; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->taylor_offset = ~std::uint64_t{7}; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->outward = 0; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->design_unit = 2; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->spare = 1; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->nodes_offset = ~std::uint64_t{7}; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->coefficient_count = ~std::uint64_t{0}; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->patches_offset += 4; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->span_count = 0; }));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/fit/quadratic_model.hpp"
+#include "core/geometry/nearest/global_projection.hpp"
 #include "core/geometry/nearest/lane_projection.hpp"
 #include "core/geometry/nearest/newton_walk.hpp"
 #include "core/geometry/surface/span_newton.hpp"

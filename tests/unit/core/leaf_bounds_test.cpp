@@ -8,6 +8,7 @@
 #include "core/geometry/nearest/global_projection.hpp"
 #include "core/geometry/nearest/leaf_bounds.hpp"
 #include "tests/support/localizer_fixtures.hpp"
+#include "tools/design/image/image_writer.hpp"
 
 namespace bladefit::testing {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/localizer_session.hpp"
 
 namespace bladefit::testing {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/geometry/nearest/global_projection.hpp"
 #include "tests/unit/core/brute_force.hpp"
 
 namespace bladefit::testing {
@@ -147,9 +148,10 @@ TEST_P(NearestPoint, DoesNotDependOnTheHint) {
   });
 }
 
-/// The rule by which the localizer tracks feet: moved by less than half its margin, a foot that Newton still reaches and
-/// that still faces the probe is the nearest one. Near a centre of curvature a new minimum may be born meanwhile, which
-/// the margin cannot know of; the points are drawn to find such places, and still fewer than one move in a thousand does.
+/// The rule by which the localizer tracks feet: moved by less than half its margin, a foot that Newton still reaches
+/// and that still faces the probe is the nearest one. Near a centre of curvature a new minimum may be born meanwhile,
+/// which the margin cannot know of; the points are drawn to find such places, and still fewer than one move in a
+/// thousand does.
 TEST_P(NearestPoint, MarginKeepsTheTrackedFoot) {
   const double margin = 2e-3 * size_;
   int tracked = 0, wrong = 0, proven = 0, unproven = 0;
@@ -180,8 +182,9 @@ TEST_P(NearestPoint, MarginKeepsTheTrackedFoot) {
   EXPECT_LE(100 * unproven, proven + unproven) << "more than one in a hundred cannot be proven";
 }
 
-/// Moved by less than half the margin to the third, the nearer of the tracked foot and its tracked runner-up is the nearest one.
-/// All these points have a runner-up, so a centre of curvature may be near, about which a third one may be born.
+/// Moved by less than half the margin to the third, the nearer of the tracked foot and its tracked runner-up is the
+/// nearest one. All these points have a runner-up, so a centre of curvature may be near, about which a third one may be
+/// born.
 TEST_P(NearestPoint, MarginToThirdKeepsOneOfTheTwo) {
   const double margin = 2e-3 * size_;
   int weighed = 0, swapped = 0, wrong = 0;

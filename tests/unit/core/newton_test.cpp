@@ -12,7 +12,7 @@
 namespace bladefit::testing {
 namespace {
 
-double difference(const Homogeneous& a, const Homogeneous& b) { return (a - b).matrix().norm(); }
+double distance_between(const Homogeneous& a, const Homogeneous& b) { return (a - b).matrix().norm(); }
 
 /// Every pair of degrees, in the middle, on the sides and at the corners.
 TEST(TaylorForm, IsThePolynomialOfItsControlNet) {
@@ -28,12 +28,12 @@ TEST(TaylorForm, IsThePolynomialOfItsControlNet) {
         evaluate_taylor(form.data(), p, q, s - 0.5, t - 0.5, found);
         const HomogeneousDerivatives expected = bernstein_sum(net.data(), p, q, s, t);
         const double rounding = 1e-14 * static_cast<double>(p * q) * std::pow(2.0, p + q);
-        EXPECT_LT(difference(found.a, expected.a), rounding) << p << " x " << q;
-        EXPECT_LT(difference(found.a_u, expected.a_u), p * rounding) << p << " x " << q;
-        EXPECT_LT(difference(found.a_v, expected.a_v), q * rounding) << p << " x " << q;
-        EXPECT_LT(difference(found.a_uu, expected.a_uu), p * p * rounding) << p << " x " << q;
-        EXPECT_LT(difference(found.a_uv, expected.a_uv), p * q * rounding) << p << " x " << q;
-        EXPECT_LT(difference(found.a_vv, expected.a_vv), q * q * rounding) << p << " x " << q;
+        EXPECT_LT(distance_between(found.a, expected.a), rounding) << p << " x " << q;
+        EXPECT_LT(distance_between(found.a_u, expected.a_u), p * rounding) << p << " x " << q;
+        EXPECT_LT(distance_between(found.a_v, expected.a_v), q * rounding) << p << " x " << q;
+        EXPECT_LT(distance_between(found.a_uu, expected.a_uu), p * p * rounding) << p << " x " << q;
+        EXPECT_LT(distance_between(found.a_uv, expected.a_uv), p * q * rounding) << p << " x " << q;
+        EXPECT_LT(distance_between(found.a_vv, expected.a_vv), q * q * rounding) << p << " x " << q;
       }
     }
   }

@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "core/fit/quadratic_model.hpp"
+#include "core/geometry/nearest/global_projection.hpp"
+#include "tests/support/made_surface.hpp"
 #include "tests/unit/core/brute_force.hpp"
-#include "tests/unit/tools/design_fixtures.hpp"
+#include "tools/design/image/image_writer.hpp"
 
 namespace bladefit::testing {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/localizer_session.hpp"
 #include "tests/unit/core/brute_force.hpp"
 

@@ -13,6 +13,7 @@
 
 #include "drivers/make_source.hpp"
 #include "drivers/serial/serial_message.hpp"
+#include "tests/support/scratch_folder.hpp"
 #include "tests/unit/drivers/collecting.hpp"
 #include "tests/unit/drivers/raw_terminal.hpp"
 
@@ -23,18 +24,11 @@ using std::chrono::milliseconds;
 
 /// The machine's end of a pseudo terminal, with a link to the host's end that stays when it is plugged in again.
 class Cable {
- public:
-  Cable() {
-    std::string name = "/tmp/bladefit_cable_XXXXXX";
-    folder_ = ::mkdtemp(name.data());
-    device = folder_ + "/port";
-    plug_in();
-  }
+  testing::ScratchFolder folder_;
 
-  ~Cable() {
-    pull();
-    std::filesystem::remove_all(folder_);
-  }
+ public:
+  Cable() { plug_in(); }
+  ~Cable() { pull(); }
 
   void plug_in() { std::filesystem::create_symlink(open_raw_terminal(machine_, host_), device); }
 
@@ -63,10 +57,9 @@ class Cable {
     return text;
   }
 
-  std::string device;
+  const std::string device = folder_ / "port";
 
  private:
-  std::string folder_;
   int machine_ = -1, host_ = -1;
 };
 

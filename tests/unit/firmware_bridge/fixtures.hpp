@@ -1,12 +1,7 @@
 #pragma once
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <thread>
@@ -17,53 +12,14 @@
 #include "drivers/replay/points_csv.hpp"
 #include "drivers/source/probe_source.hpp"
 #include "firmware_bridge/host/host.hpp"
-#include "tools/design/load_design.hpp"
+#include "tests/support/reference_design.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace bladefit::testing {
 
-/// A folder that goes at the end of the test.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "bladefit_bridge_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string read_bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-inline void write_bytes_to(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
-}
-
 /// The compiled blade of dtmb4119, 8-byte aligned.
-inline const std::vector<std::byte>& blade_bytes() {
-  static const std::vector<std::byte> bytes =
-      load_design(std::string(BLADEFIT_TEST_DATA) + "/dtmb4119/design.igs", OutwardOption::plus).image;
-  return bytes;
-}
-
-inline const DesignImage& blade() {
-  static const DesignImage image = [] {
-    DesignImage opened;
-    if (DesignImage::open(blade_bytes(), opened) != Status::ok) std::abort();
-    return opened;
-  }();
-  return image;
-}
+inline const std::vector<std::byte>& blade_bytes() { return reference_design("dtmb4119").bytes(); }
+inline const DesignImage& blade() { return reference_design("dtmb4119").image(); }
 
 /// The first `count` measured points of the case.
 inline std::vector<ProbePoint> measured_points(std::size_t count) {

@@ -113,13 +113,13 @@ TEST(BridgeHost, AJournalTornAnywhereEndsWithTheSameBits) {
     ScriptedSource source(measured_points(kPoints));
     ASSERT_FALSE(run_to_end(settings, source).error);
   }
-  const std::string whole = testing::read_bytes_of(journal_path(settings.session_directory));
+  const std::string whole = testing::read_whole(journal_path(settings.session_directory));
   for (const std::size_t size : {std::size_t{10}, sizeof(JournalHeader), sizeof(JournalHeader) + 40, whole.size() / 2,
                                  whole.size() - 80, whole.size() - 1}) {
-    testing::write_bytes_to(journal_path(settings.session_directory), whole.substr(0, size));
+    testing::write_whole(journal_path(settings.session_directory), whole.substr(0, size));
     ScriptedSource source(measured_points(kPoints));
     expect_same_result(run_to_end(settings, source), clean);
-    EXPECT_EQ(testing::read_bytes_of(journal_path(settings.session_directory)).size(), whole.size()) << size;
+    EXPECT_EQ(testing::read_whole(journal_path(settings.session_directory)).size(), whole.size()) << size;
   }
 }
 

@@ -7,9 +7,9 @@
 namespace bladefit {
 namespace {
 
-using testing::read_bytes_of;
+using testing::read_whole;
 using testing::ScratchFolder;
-using testing::write_bytes_to;
+using testing::write_whole;
 
 constexpr SessionIdentity kIdentity{0x12345678, 0xABCDEF0123456789};
 constexpr std::uint32_t kRun = 42;
@@ -60,10 +60,10 @@ TEST(BridgeJournal, GivesBackWhatWasWritten) {
 
 TEST(BridgeJournal, ATailTornAtAnyByteIsCutOffAndTheSessionGoesOn) {
   const ScratchFolder folder;
-  const std::string whole = read_bytes_of(make_journal(folder, 5));
+  const std::string whole = read_whole(make_journal(folder, 5));
   const std::string path = folder / "torn.bin";
   for (std::size_t size = 0; size <= whole.size(); ++size) {
-    write_bytes_to(path, whole.substr(0, size));
+    write_whole(path, whole.substr(0, size));
     JournalContent content;
     ASSERT_FALSE(read_journal(path, content)) << size;
     ASSERT_EQ(content.exists, size >= sizeof(JournalHeader)) << size;
@@ -85,12 +85,12 @@ TEST(BridgeJournal, ATailTornAtAnyByteIsCutOffAndTheSessionGoesOn) {
 
 TEST(BridgeJournal, ADamagedBitAnywhereIsFound) {
   const ScratchFolder folder;
-  const std::string whole = read_bytes_of(make_journal(folder, 3));
+  const std::string whole = read_whole(make_journal(folder, 3));
   const std::string path = folder / "damaged.bin";
   for (std::size_t byte = 0; byte < whole.size(); ++byte) {
     std::string bytes = whole;
     bytes[byte] = static_cast<char>(bytes[byte] ^ 0x10);
-    write_bytes_to(path, bytes);
+    write_whole(path, bytes);
     JournalContent content;
     const HostError error = read_journal(path, content);
     if (byte < sizeof(JournalHeader)) {
@@ -103,7 +103,7 @@ TEST(BridgeJournal, ADamagedBitAnywhereIsFound) {
     if (record < 3) {
       ASSERT_EQ(error.fault, Fault::bad_input) << byte;
       ASSERT_NE(error.message.find("record " + std::to_string(record + 1)), std::string::npos) << error.message;
-      ASSERT_EQ(read_bytes_of(path), bytes);
+      ASSERT_EQ(read_whole(path), bytes);
       continue;
     }
     ASSERT_FALSE(error) << byte;
@@ -121,9 +121,9 @@ TEST(BridgeJournal, DamageInTheLastGroupIsATornTail) {
     ASSERT_FALSE(journal.resume(6));
     ASSERT_FALSE(journal.append(std::vector<StreamEvent>{event(6), event(7), event(8)}));
   }
-  std::string bytes = read_bytes_of(path);
+  std::string bytes = read_whole(path);
   bytes[sizeof(JournalHeader) + 7 * sizeof(JournalRecord)] ^= 1;
-  write_bytes_to(path, bytes);
+  write_whole(path, bytes);
   JournalContent content;
   ASSERT_FALSE(read_journal(path, content));
   EXPECT_EQ(content.events.size(), 7U);
@@ -145,9 +145,9 @@ TEST(BridgeJournal, DamageLongBeforeTheEndIsNoTornTail) {
       group.clear();
     }
   }
-  std::string bytes = read_bytes_of(path);
+  std::string bytes = read_whole(path);
   bytes[sizeof(JournalHeader) + 16 * sizeof(JournalRecord) + 3] ^= 1;
-  write_bytes_to(path, bytes);
+  write_whole(path, bytes);
   JournalContent content;
   const HostError error = read_journal(path, content);
   EXPECT_EQ(error.fault, Fault::bad_input);
@@ -158,11 +158,11 @@ TEST(BridgeJournal, RefusesForeignFilesAndOtherVersions) {
   const ScratchFolder folder;
   const std::string path = folder / "journal.bin";
   JournalContent content;
-  write_bytes_to(path, std::string(100, 'x'));
+  write_whole(path, std::string(100, 'x'));
   EXPECT_EQ(read_journal(path, content).fault, Fault::bad_input);
   JournalHeader header = make_journal_header(kIdentity, kRun);
   header.version = kJournalVersion + 1;
-  write_bytes_to(path, std::string(reinterpret_cast<const char*>(&header), sizeof header));
+  write_whole(path, std::string(reinterpret_cast<const char*>(&header), sizeof header));
   EXPECT_NE(read_journal(path, content).message.find("this program reads version 4"), std::string::npos);
   EXPECT_FALSE(read_journal(folder / "missing.bin", content));
   EXPECT_FALSE(content.exists);

@@ -7,7 +7,7 @@
 
 #include "firmware_bridge/host/panel/panel_map.hpp"
 #include "firmware_bridge/host/panel/panel_protocol.hpp"
-#include "tests/unit/tools/panel_state.hpp"
+#include "tests/support/panel_state.hpp"
 
 namespace bladefit {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/threads/wakeup.hpp"
-#include "tests/unit/tools/panel_state.hpp"
+#include "tests/support/panel_state.hpp"
 
 namespace bladefit {
 namespace {

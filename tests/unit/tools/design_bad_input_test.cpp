@@ -18,13 +18,13 @@ using testing::iges_file;
 using testing::iges_surface;
 using testing::random_surface;
 using testing::replaced;
+using testing::ScratchFolder;
 using testing::step_file;
 using testing::step_surface;
-using testing::TemporaryFolder;
 
 /// What reading `content` under `name` throws: one line that names the file.
 std::string message_of(const std::string& name, const std::string& content) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto path = folder.write(name, content);
   try {
     read_design(path);
@@ -196,13 +196,13 @@ TEST(DesignBadInput, ForeignFiles) {
 TEST(DesignBadInput, MissingFileAndFolder) {
   EXPECT_THROW(read_design("/nonexistent/a.igs"), ToolError);
   EXPECT_THROW(load_design("/nonexistent/a.bfd", OutwardOption::plus), ToolError);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::filesystem::create_directory(folder.path() / "a.stp");
   EXPECT_THROW(read_design(folder.path() / "a.stp"), ToolError);
 }
 
 TEST(DesignBadInput, DamagedImages) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto message = [&](const std::string& content) {
     try {
       load_design(folder.write("a.bfd", content), OutwardOption::plus);

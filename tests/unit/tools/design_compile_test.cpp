@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 
+#include "tests/support/compile_case.hpp"
+#include "tests/support/reference_design.hpp"
 #include "tests/unit/tools/design_file_writing.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
 #include "tests/unit/tools/design_image_reading.hpp"
@@ -14,30 +16,30 @@ namespace bladefit {
 namespace {
 
 using testing::read_whole;
-using testing::TemporaryFolder;
+using testing::ScratchFolder;
 
 /// Runs `bladefit compile ARGUMENTS` in `folder`; its output goes to out.txt there. Returns the exit code.
-int run_compile(const TemporaryFolder& folder, const std::string& arguments) {
+int run_compile(const ScratchFolder& folder, const std::string& arguments) {
   const std::string command =
       "cd '" + folder.path().string() + "' && '" BLADEFIT_COMMAND "' compile " + arguments + " > out.txt 2>&1";
   const int status = std::system(command.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-std::size_t count_files(const TemporaryFolder& folder) {
+std::size_t count_files(const ScratchFolder& folder) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) count += entry.exists() ? 1 : 0;
   return count;
 }
 
-void write_design(const TemporaryFolder& folder) {
+void write_design(const ScratchFolder& folder) {
   const auto path =
       folder.write("blade.igs", testing::iges_file({testing::iges_surface(testing::random_surface({}, {}, true, 3))}));
   ASSERT_TRUE(std::filesystem::exists(path));
 }
 
 TEST(DesignCompile, WritesTheImageThatLoadDesignGives) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_design(folder);
   ASSERT_EQ(run_compile(folder, "blade.igs -o blade.bfd --outward -"), 0) << read_whole(folder.path() / "out.txt");
   const LoadedDesign design = load_design(folder.path() / "blade.igs", OutwardOption::minus);
@@ -50,8 +52,14 @@ TEST(DesignCompile, WritesTheImageThatLoadDesignGives) {
   EXPECT_EQ(count_files(folder), 3U);
 }
 
+/// The designs that other tests open were compiled when the tests were built.
+TEST(DesignCompile, ReferenceDesignsOnFileAreThoseCompiledNow) {
+  for (const char* name : {"arl_fan", "pnsy_3patch"})
+    EXPECT_EQ(testing::reference_design(name).bytes(), testing::compile_case(testing::read_case(name))) << name;
+}
+
 TEST(DesignCompile, CArrayHoldsTheImage) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_design(folder);
   ASSERT_EQ(run_compile(folder, "blade.igs -o blade.bfd --c-array 7-fan.c --outward +"), 0);
   const auto source =
@@ -67,7 +75,7 @@ TEST(DesignCompile, CArrayHoldsTheImage) {
 }
 
 TEST(DesignCompile, BadInputLeavesNoFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_design(folder);
   EXPECT_EQ(run_compile(folder, "blade.igs -o blade.bfd"), 2);  // an open sheet does not tell its outward side
   EXPECT_NE(read_whole(folder.path() / "out.txt").find("--outward +"), std::string::npos);
@@ -81,7 +89,7 @@ TEST(DesignCompile, BadInputLeavesNoFile) {
 }
 
 TEST(DesignCompile, FailedOutputLeavesNoFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_design(folder);
   EXPECT_EQ(run_compile(folder, "blade.igs -o missing/blade.bfd --outward +"), 3);
   EXPECT_EQ(run_compile(folder, "blade.igs -o blade.bfd --c-array missing/blade.c --outward +"), 3);
@@ -90,7 +98,7 @@ TEST(DesignCompile, FailedOutputLeavesNoFile) {
 }
 
 TEST(DesignCompile, OldOutputStaysUntilTheNewOneIsWhole) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto path = folder.write("a.bfd", "old");
   { const OutputFile abandoned(path, "new"); }
   EXPECT_EQ(read_whole(path), "old");
@@ -102,7 +110,7 @@ TEST(DesignCompile, OldOutputStaysUntilTheNewOneIsWhole) {
 }
 
 TEST(DesignCompile, OutputThroughALinkKeepsTheLink) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto path = folder.write("a.bfd", "old");
   std::filesystem::create_symlink("a.bfd", folder.path() / "link.bfd");
   OutputFile(folder.path() / "link.bfd", "new").commit();
@@ -111,7 +119,7 @@ TEST(DesignCompile, OutputThroughALinkKeepsTheLink) {
 }
 
 TEST(DesignCompile, HelpTeaches) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_EQ(run_compile(folder, "--help"), 0);
   EXPECT_NE(read_whole(folder.path() / "out.txt").find("Examples:"), std::string::npos);
 }

@@ -18,9 +18,9 @@ using testing::iges_file;
 using testing::iges_surface;
 using testing::open_image;
 using testing::random_surface;
+using testing::ScratchFolder;
 using testing::step_file;
 using testing::step_surface;
-using testing::TemporaryFolder;
 
 const std::filesystem::path kData = BLADEFIT_TEST_DATA;
 constexpr const char* kCases[] = {"arl_3patch", "arl_fan", "dtmb4119", "dtmb4119_ball", "pnsy_3patch", "pnsy_sub"};
@@ -37,7 +37,7 @@ void expect_same(const NurbsSurface& read, const NurbsSurface& written, double m
   }
 }
 
-NurbsSurface read_single(const TemporaryFolder& folder, const std::string& name, const std::string& content) {
+NurbsSurface read_single(const ScratchFolder& folder, const std::string& name, const std::string& content) {
   const DesignFile design = read_design(folder.write(name, content));
   EXPECT_EQ(design.surfaces.size(), 1U);
   return design.surfaces.at(0);
@@ -45,7 +45,7 @@ NurbsSurface read_single(const TemporaryFolder& folder, const std::string& name,
 
 TEST(DesignFiles, EveryCaseCompilesAndTwinsAgree) {
   for (const char* name : kCases) {
-    const nlohmann::json facts = nlohmann::json::parse(testing::read_whole(kData / name / "case.json"));
+    const nlohmann::json facts = testing::read_json(kData / name / "case.json");
     const LoadedDesign iges = load_design(kData / name / "design.igs", OutwardOption::automatic);
     const LoadedDesign step = load_design(kData / name / "design.stp", OutwardOption::automatic);
     const DesignImage image = open_image(iges.image);
@@ -88,7 +88,7 @@ RC_GTEST_PROP(DesignFiles, BothFormatsReadBackExactly, ()) {
   const bool clamped = *rc::gen::arbitrary<bool>();
   const NurbsSurface surface =
       random_surface({degree_u, 3, clamped, false, clamped}, {degree_v, 2}, true, *rc::gen::arbitrary<std::uint32_t>());
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   expect_same(read_single(folder, "a.IGS", iges_file({iges_surface(surface)})), surface);
   int number = 100;
   expect_same(read_single(folder, "a.Step", step_file(step_surface(surface, "", number))), surface);
@@ -97,7 +97,7 @@ RC_GTEST_PROP(DesignFiles, BothFormatsReadBackExactly, ()) {
 
 TEST(DesignFiles, IgesSubRangeIsRespected) {
   const NurbsSurface surface = random_surface({3, 5, true, true}, {2, 4, false, true}, true, 4);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   expect_same(read_single(folder, "a.iges", iges_file({iges_surface(surface)})), surface);
 }
 
@@ -105,7 +105,7 @@ TEST(DesignFiles, RangeJustBeyondTheKnotsIsCut) {
   NurbsSurface surface = random_surface({}, {}, false, 4);
   const double end = surface.u.end;
   surface.u.end += 1e-9;
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const DesignFile design = read_design(folder.write("a.igs", iges_file({iges_surface(surface)})));
   EXPECT_EQ(design.surfaces[0].u.end, end);
   EXPECT_EQ(design.warnings.size(), 1U);
@@ -122,7 +122,7 @@ TEST(DesignFiles, IgesUnits) {
                              {"4,2HFT", 304.8, DesignUnit::mm},    {"6,1HM", 1000, DesignUnit::mm},
                              {"10,2HCM", 10, DesignUnit::mm}};
   const NurbsSurface surface = random_surface({}, {}, true, 4);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   for (const Case& unit : kUnits) {
     const DesignFile design = read_design(folder.write("a.igs", iges_file({iges_surface(surface)}, unit.units)));
     expect_same(design.surfaces.at(0), surface, unit.mm);
@@ -133,14 +133,14 @@ TEST(DesignFiles, IgesUnits) {
 
 TEST(DesignFiles, IgesScaleDividesCoordinates) {
   const NurbsSurface surface = random_surface({}, {}, true, 4);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto path = folder.write("a.igs", iges_file({iges_surface(surface)}, "2,2HMM", "0.5"));
   expect_same(read_design(path).surfaces.at(0), surface, 2.0);
 }
 
 TEST(DesignFiles, IgesTransformationMatrixMovesTheSurface) {
   const NurbsSurface surface = random_surface({}, {}, true, 4);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string matrix = "124,0.,-1.,0.,5.,1.,0.,0.,6.,0.,0.,1.,7.";
   const NurbsSurface moved =
       read_single(folder, "a.igs", iges_file({{124, matrix, 0, ""}, iges_surface(surface, 1)}, "1,2HIN"));
@@ -161,7 +161,7 @@ TEST(DesignFiles, StepUnits) {
   };
   const std::string milli = "#2=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n";
   const NurbsSurface surface = random_surface({}, {}, true, 4);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   int number = 100;
   const std::string statements = step_surface(surface, "", number);
   const auto read_with = [&](const std::string& unit) {
@@ -178,7 +178,7 @@ TEST(DesignFiles, StepUnits) {
 TEST(DesignFiles, StepSurfacesFollowTheNumbersOfTheirFaces) {
   const NurbsSurface first = random_surface({}, {}, true, 1);
   const NurbsSurface second = random_surface({}, {}, true, 2);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   for (const bool named : {true, false}) {
     int number = 100;
     const std::string statements =
@@ -201,7 +201,7 @@ NurbsSurface with_knots(NurbsSurface surface, const std::vector<double>& knots_u
 }
 
 TEST(DesignFiles, StepImpliedKnots) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto read_as = [&](const NurbsSurface& surface, testing::StepForm form) {
     int number = 100;
     return read_single(folder, "a.stp", step_file(step_surface(surface, "", number, form)));
@@ -218,7 +218,7 @@ TEST(DesignFiles, StepImpliedKnots) {
 
 TEST(DesignFiles, ImagesAreReadAsTheyAreAndTurned) {
   const NurbsSurface surface = random_surface({}, {}, true, 1);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto source = folder.write("a.igs", iges_file({iges_surface(surface)}));
   const LoadedDesign compiled = load_design(source, OutwardOption::minus);
   const auto path =

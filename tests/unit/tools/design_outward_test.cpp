@@ -95,7 +95,7 @@ TEST(DesignOutward, PatchesThatContradictEachOtherAreRefused) {
 }
 
 TEST(DesignOutward, TheSideAskedForIsTaken) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const auto path = folder.write("a.igs", testing::iges_file({testing::iges_surface(sheet(blade(0, 0.5, 0.1)))}));
   EXPECT_THROW(load_design(path, OutwardOption::automatic), ToolError);
   EXPECT_NO_THROW(load_design(path, OutwardOption::minus));

@@ -51,7 +51,7 @@ TopoDS_Face with_a_hole() {
   return BRepBuilderAPI_MakeFace(outer, hole);
 }
 
-std::filesystem::path write_step(const testing::TemporaryFolder& folder, const TopoDS_Face& face) {
+std::filesystem::path write_step(const testing::ScratchFolder& folder, const TopoDS_Face& face) {
   const std::filesystem::path path = folder.path() / "sheet.stp";
   const QuietMessages quiet;
   STEPControl_Writer writer;
@@ -60,7 +60,7 @@ std::filesystem::path write_step(const testing::TemporaryFolder& folder, const T
   return path;
 }
 
-std::filesystem::path write_iges(const testing::TemporaryFolder& folder, const TopoDS_Face& face, int brep_mode) {
+std::filesystem::path write_iges(const testing::ScratchFolder& folder, const TopoDS_Face& face, int brep_mode) {
   const std::filesystem::path path = folder.path() / "sheet.igs";
   const QuietMessages quiet;
   IGESControl_Writer writer("MM", brep_mode);
@@ -80,14 +80,14 @@ void expect_warning(const std::filesystem::path& path, const std::string& face) 
 }
 
 TEST(DesignTrim, StepFacesCutInsideTheirSurfaceAreTold) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   EXPECT_EQ(warning_of(write_step(folder, whole())), "");
   expect_warning(write_step(folder, cut_along_one_side()), "face #");
   expect_warning(write_step(folder, with_a_hole()), "face #");
 }
 
 TEST(DesignTrim, IgesFacesCutInsideTheirSurfaceAreTold) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   for (const auto& [mode, face] : {std::pair{0, "entity 144 at D"}, {1, "entity 510 at D"}}) {
     SCOPED_TRACE(face);
     EXPECT_EQ(warning_of(write_iges(folder, whole(), mode)), "");
@@ -97,7 +97,7 @@ TEST(DesignTrim, IgesFacesCutInsideTheirSurfaceAreTold) {
 }
 
 TEST(DesignTrim, EveryCommandWarnsOnStandardError) {
-  const testing::TemporaryFolder folder;
+  const testing::ScratchFolder folder;
   const std::string design = write_step(folder, with_a_hole());
   const std::vector<std::vector<std::string>> commands = {
       {"compile", design, "--outward", "+", "-o", folder.path() / "sheet.bfd"},

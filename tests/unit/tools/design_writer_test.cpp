@@ -18,11 +18,11 @@ namespace bladefit {
 namespace {
 
 using testing::random_surface;
-using testing::TemporaryFolder;
+using testing::ScratchFolder;
 
 const std::filesystem::path kData = BLADEFIT_TEST_DATA;
 
-void expect_same(const NurbsSurface& read, const NurbsSurface& written) {
+void expect_read_back(const NurbsSurface& read, const NurbsSurface& written) {
   EXPECT_EQ(read.u.knots, written.u.knots);
   EXPECT_EQ(read.v.knots, written.v.knots);
   EXPECT_EQ(std::pair(read.u.start, read.u.end), std::pair(written.u.start, written.u.end));
@@ -75,25 +75,25 @@ RC_GTEST_PROP(DesignWriter, MillimetresReadBackBitForBit, ()) {
   const bool sub_range = *rc::gen::arbitrary<bool>();
   const NurbsSurface surface = random_surface({degree_u, 3, clamped, sub_range, clamped}, {3, 2},
                                               *rc::gen::arbitrary<bool>(), *rc::gen::arbitrary<std::uint32_t>());
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   write_iges_design(folder.path() / "a.igs", {surface, surface}, DesignUnit::mm);
   const DesignFile design = read_design(folder.path() / "a.igs");
   RC_ASSERT(design.surfaces.size() == 2U);
   RC_ASSERT(design.warnings.empty());
-  expect_same(design.surfaces[1], surface);
+  expect_read_back(design.surfaces[1], surface);
 }
 
 /// Designs in inches: the numbers of the first file come to stand in the second.
 TEST(DesignWriter, ReferenceDesignsReadBackBitForBit) {
   for (const char* name : {"arl_fan", "arl_3patch", "pnsy_sub", "dtmb4119"}) {
     const DesignFile design = read_design(kData / name / "design.igs");
-    const TemporaryFolder folder;
+    const ScratchFolder folder;
     const std::filesystem::path copy = folder.path() / "copy.igs";
     write_iges_design(copy, design.surfaces, design.unit);
     const DesignFile read = read_design(copy);
     EXPECT_EQ(read.unit, design.unit);
     ASSERT_EQ(read.surfaces.size(), design.surfaces.size());
-    for (std::size_t k = 0; k < read.surfaces.size(); ++k) expect_same(read.surfaces[k], design.surfaces[k]);
+    for (std::size_t k = 0; k < read.surfaces.size(); ++k) expect_read_back(read.surfaces[k], design.surfaces[k]);
     expect_same_in_opencascade(copy, design.surfaces, design.unit);
   }
 }
@@ -133,7 +133,7 @@ TEST(DesignWriter, RealsHaveAPointAndTheirExponentIsD) {
 
 TEST(DesignWriter, LeavesNoPartOfAFileBehind) {
   const NurbsSurface surface = random_surface({}, {}, true, 5);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_THROW(write_iges_design(folder.path() / "a.stp", {surface}, DesignUnit::mm), ToolError);
   std::filesystem::create_directory(folder.path() / "taken.igs");
   EXPECT_THROW(write_iges_design(folder.path() / "taken.igs", {surface}, DesignUnit::mm), ToolError);

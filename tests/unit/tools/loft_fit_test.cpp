@@ -21,7 +21,7 @@ ExtendedPoint point_at(const SurfaceDirection& direction, const std::vector<Exte
   return sum;
 }
 
-std::vector<ExtendedPoint> random_points(std::size_t count, std::mt19937& random) {
+std::vector<ExtendedPoint> extended_points(std::size_t count, std::mt19937& random) {
   std::uniform_real_distribution<double> number(-10, 10);
   std::vector<ExtendedPoint> points;
   for (std::size_t k = 0; k < count; ++k) points.emplace_back(number(random), number(random), number(random));
@@ -42,7 +42,7 @@ RC_GTEST_PROP(SplineFit, ReproducesSplines, ()) {
   const auto inner = *rc::gen::inRange(0, 30);
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const SurfaceDirection direction = clamped_direction(degree, uniform_knots(inner));
-  const auto controls = random_points(static_cast<std::size_t>(direction.control_points), random);
+  const auto controls = extended_points(static_cast<std::size_t>(direction.control_points), random);
   const auto parameters = even_parameters(5 * controls.size());
   std::vector<ExtendedPoint> points;
   for (const long double t : parameters) points.push_back(point_at(direction, controls, t));
@@ -57,7 +57,7 @@ RC_GTEST_PROP(SplineFit, InterpolatesWhereItCan, ()) {
   const auto inner = *rc::gen::inRange(0, 30);
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const SurfaceDirection direction = clamped_direction(degree, uniform_knots(inner));
-  const auto points = random_points(static_cast<std::size_t>(direction.control_points), random);
+  const auto points = extended_points(static_cast<std::size_t>(direction.control_points), random);
   const auto parameters = even_parameters(points.size());
   const auto fitted = fit_spline(direction, parameters, points);
   RC_ASSERT(fitted.has_value());
@@ -73,7 +73,7 @@ RC_GTEST_PROP(SplineFit, InterpolatesWhereItCan, ()) {
 RC_GTEST_PROP(SplineFit, NoOtherSplineIsNearer, ()) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const SurfaceDirection direction = clamped_direction(3, uniform_knots(6));
-  const auto points = random_points(40, random);
+  const auto points = extended_points(40, random);
   const auto parameters = chord_parameters(points).value();
   auto fitted = fit_spline(direction, parameters, points).value();
   const auto sum = [&] {
@@ -104,7 +104,7 @@ TEST(SplineFit, ChordLengthsAreTheParameters) {
 
 TEST(SplineFit, SaysWhatIsNotDetermined) {
   std::mt19937 random(1);
-  const auto points = random_points(8, random);
+  const auto points = extended_points(8, random);
   EXPECT_FALSE(fit_spline(clamped_direction(1, {0.5, 0.52, 0.54}), even_parameters(8), points).has_value());
   EXPECT_FALSE(fit_spline(clamped_direction(3, uniform_knots(5)), even_parameters(8), points).has_value());
   EXPECT_TRUE(fit_spline(clamped_direction(3, uniform_knots(4)), even_parameters(8), points).has_value());

@@ -35,7 +35,7 @@ struct BadSections {
 
 class SectionsRefused : public ::testing::TestWithParam<BadSections> {};
 
-std::string message_of(const std::function<void()>& call) {
+std::string refusal_of(const std::function<void()>& call) {
   try {
     call();
   } catch (const ToolError& error) {
@@ -48,7 +48,7 @@ std::string message_of(const std::function<void()>& call) {
 }
 
 TEST_P(SectionsRefused, InOneLineThatNamesThePlace) {
-  const std::string message = message_of([] { parse_sections_csv(GetParam().text, "s.csv"); });
+  const std::string message = refusal_of([] { parse_sections_csv(GetParam().text, "s.csv"); });
   EXPECT_NE(message.find(GetParam().wanted), std::string::npos) << message;
   EXPECT_EQ(message.rfind("s.csv", 0), 0U) << message;
 }
@@ -81,7 +81,7 @@ BladeSections ladder(int sections, int points) {
 
 TEST(LoftRefuses, WhatDoesNotDetermineASurface) {
   const auto expect = [](const BladeSections& sections, const LoftSettings& settings, const std::string& wanted) {
-    const std::string message = message_of([&] { (void)loft(sections, settings, 1); });
+    const std::string message = refusal_of([&] { (void)loft(sections, settings, 1); });
     EXPECT_NE(message.find(wanted), std::string::npos) << message;
   };
   expect(ladder(3, 12), {}, "s.csv: 3 sections are too few for degree 3");

@@ -110,7 +110,7 @@ class SessionFolder {
   }
 
  private:
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
 };
 
 /// That `report` refuses the folder in one line with these parts, and leaves no output behind.

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "tests/unit/tools/panel_state.hpp"
+#include "tests/support/panel_state.hpp"
 #include "tools/panel/screen.hpp"
 
 namespace bladefit {
