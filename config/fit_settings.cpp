@@ -55,7 +55,7 @@ void read_boxes(TableReader& table, FitSettings& settings) {
   }
   for (const std::string& text : *settings.leading_edge) {
     ParameterBox box;
-    if (const ConfigError error = parse_leading_edge(text, box)) table.fail("leading_edge", error.message);
+    if (const Failure error = parse_leading_edge(text, box)) table.fail("leading_edge", error.message);
   }
 }
 
@@ -63,19 +63,19 @@ void read_window(TableReader& table, FitSettings& settings) {
   table.read("window", settings.window);
   if (!table.good() || !settings.window) return;
   ParameterWindow window;
-  if (const ConfigError error = parse_window(*settings.window, window)) table.fail("window", error.message);
+  if (const Failure error = parse_window(*settings.window, window)) table.fail("window", error.message);
 }
 
 void read_lock(TableReader& table, FitSettings& settings) {
   table.read("lock", settings.lock);
   if (!table.good() || !settings.lock) return;
   std::uint8_t locked = 0;
-  if (const ConfigError error = parse_lock(*settings.lock, locked)) table.fail("lock", error.message);
+  if (const Failure error = parse_lock(*settings.lock, locked)) table.fail("lock", error.message);
 }
 
 }  // namespace
 
-ConfigError parse_lock(std::string_view text, std::uint8_t& locked) {
+Failure parse_lock(std::string_view text, std::uint8_t& locked) {
   std::uint32_t read = 0;
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t comma = rest.find(',');
@@ -83,21 +83,21 @@ ConfigError parse_lock(std::string_view text, std::uint8_t& locked) {
     rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
     const auto* known = std::find(kDegreesOfFreedom.begin(), kDegreesOfFreedom.end(), name);
     if (known == kDegreesOfFreedom.end()) {
-      return {
-          fmt::format("'{}' is no degree of freedom; write some of tx,ty,tz,rx,ry,rz with commas between them", name)};
+      return bad_input(
+          fmt::format("'{}' is no degree of freedom; write some of tx,ty,tz,rx,ry,rz with commas between them", name));
     }
     read |= 1U << static_cast<unsigned>(known - kDegreesOfFreedom.begin());
   }
-  if (read == 63U) return {"all six degrees of freedom are locked; leave one free for the fit"};
+  if (read == 63U) return bad_input("all six degrees of freedom are locked; leave one free for the fit");
   locked = static_cast<std::uint8_t>(read);
   return {};
 }
 
-ConfigError parse_leading_edge(std::string_view text, ParameterBox& box) {
-  const ConfigError wrong{
+Failure parse_leading_edge(std::string_view text, ParameterBox& box) {
+  const Failure wrong = bad_input(
       fmt::format("'{}' is no leading-edge box; write [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6 with limits from 0 to 1, "
                   "the lower first",
-                  text)};
+                  text));
   std::string_view rest = text;
   ParameterBox read;
   std::string_view part = take_part(rest);
@@ -114,9 +114,9 @@ ConfigError parse_leading_edge(std::string_view text, ParameterBox& box) {
   return {};
 }
 
-ConfigError parse_window(std::string_view text, ParameterWindow& window) {
+Failure parse_window(std::string_view text, ParameterWindow& window) {
   if (parse_interval(text, window.low, window.high)) return {};
-  return {fmt::format("'{}' is no window; write 0.05:0.95, limits from 0 to 1, the lower first", text)};
+  return bad_input(fmt::format("'{}' is no window; write 0.05:0.95, limits from 0 to 1, the lower first", text));
 }
 
 void read_fit_table(TableReader& table, FitSettings& settings) {
@@ -147,7 +147,7 @@ void read_fit_table(TableReader& table, FitSettings& settings) {
   table.finish();
 }
 
-ConfigError load_fit(const std::string& path, FitSettings& settings) {
+Failure load_fit(const std::string& path, FitSettings& settings) {
   TomlDocument document = read_toml(path);
   if (document.error) return document.error;
   FitSettings read = settings;

@@ -9,6 +9,7 @@
 
 #include "config/fit_table.hpp"
 #include "config/table_reader.hpp"
+#include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
 
 namespace bladefit {
@@ -17,14 +18,14 @@ namespace {
 constexpr double kMostPoints = 16777216;
 constexpr double kLongestIdle = 1e6;  ///< [s]
 
-/// A source URI. What stands behind the first colon is a path, but in modbus-tcp://HOST:PORT.
+/// A source URI, whose path is made one of the working directory.
 void read_source(TableReader& table, std::optional<std::string>& source) {
   if (!table.has("source")) return;
   table.read("source", source);
   if (!table.good()) return;
   SourceSettings scratch;
-  if (const std::string error = apply_source_uri(*source, scratch); !error.empty()) return table.fail("source", error);
-  if (scratch.kind == SourceKind::modbus_tcp) return;
+  if (const Failure failure = apply_source_uri(*source, scratch)) return table.fail("source", failure.message);
+  if (!protocol_of(scratch)->place_is_path) return;
   const std::size_t path = source->find(':') + 1;
   source = source->substr(0, path) + table.from_folder(source->substr(path));
 }
@@ -53,7 +54,7 @@ void read_panel(TableReader& table, PanelSettings& panel) {
 
 }  // namespace
 
-ConfigError load_session(const std::string& path, SessionSettings& settings) {
+Failure load_session(const std::string& path, SessionSettings& settings) {
   TomlDocument document = read_toml(path);
   if (document.error) return document.error;
   SessionSettings read = settings;

@@ -8,7 +8,6 @@
 #include "drivers/modbus/cmm_requests.hpp"
 #include "drivers/source/host_clock.hpp"
 #include "drivers/source/source_fault.hpp"
-#include "drivers/source_uri.hpp"
 
 namespace bladefit {
 namespace {
@@ -22,24 +21,24 @@ constexpr std::chrono::milliseconds kCloseTime{700};
 
 }  // namespace
 
-ModbusSource::ModbusSource(const SourceSettings& settings)
+ModbusSource::ModbusSource(const ModbusSettings& settings, std::string name)
     : settings_(settings),
-      name_(source_name(settings)),
-      ring_(settings_.modbus, status_),
+      name_(std::move(name)),
+      ring_(settings_, status_),
       link_(make_modbus_link(settings)),
-      back_off_(settings.modbus.reconnect_first, settings.modbus.reconnect_longest),
+      back_off_(settings.reconnect_first, settings.reconnect_longest),
       registers_(MODBUS_MAX_READ_REGISTERS) {}
 
 ModbusSource::~ModbusSource() = default;
 
-SourceError ModbusSource::open_error(const std::string& what) {
+Failure ModbusSource::open_error(const std::string& what) {
   link_->close();
   stage_ = Stage::down;
   opening_ = false;
-  return {fmt::format("{}: {}", name_, what)};
+  return device_failure(fmt::format("{}: {}", name_, what));
 }
 
-SourceError ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
+Failure ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
   status_ = {};
   ring_.restart(after);
   stored_ = after;
@@ -47,25 +46,24 @@ SourceError ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
   run_id_ = run_id;
   refusal_.clear();
   header_refusals_ = foreign_headers_ = timeouts_ = headers_ = 0;
-  if (const std::string fault = check_map(settings_.modbus.map); !fault.empty()) return open_error(fault);
-  if (const std::string fault = link_->prepare(); !fault.empty()) return open_error(fault);
+  if (const Failure failure = check_map(settings_.map)) return open_error(failure.message);
+  if (const Failure failure = link_->prepare()) return open_error(failure.message);
   opening_ = true;
   connected_ = false;
   purpose_ = Purpose::none;
   stage_ = Stage::connecting;
   link_->start_connect();
   const Clock::time_point deadline =
-      Clock::now() + settings_.modbus.connect_timeout + kOpenTransactions * settings_.modbus.reply_timeout;
+      Clock::now() + settings_.connect_timeout + kOpenTransactions * settings_.reply_timeout;
   while (stage_ != Stage::running || headers_ < kHeadersToOpen) {
-    step(Clock::now() + settings_.modbus.reply_timeout);
+    step(Clock::now() + settings_.reply_timeout);
     if (foreign_headers_ >= kHeadersOfAnotherRun) break;
     const bool never_connected = stage_ == Stage::down && !connected_;
     if (never_connected || Clock::now() > deadline) return open_error(status_.last_fault);
     if (!refusal_.empty()) return open_error(refusal_);
     if (timeouts_ >= kHeaderTries) {
-      return open_error(
-          fmt::format("unit {} does not answer; switch it on, or correct unit and the settings of the line",
-                      settings_.modbus.unit));
+      return open_error(fmt::format(
+          "unit {} does not answer; switch it on, or correct unit and the settings of the line", settings_.unit));
     }
   }
   opening_ = false;
@@ -121,7 +119,7 @@ void ModbusSource::begin_transaction(Clock::time_point until) {
 /// The acknowledge, or the command after it. Returns false where there is nothing to be written.
 bool ModbusSource::begin_write() {
   if (foreign_headers_ > 0) return false;
-  const CmmMap& map = settings_.modbus.map;
+  const CmmMap& map = settings_.map;
   if (stage_ == Stage::announce || (stage_ == Stage::running && stored_ != sent_)) {
     sending_ = stored_;
     if (map.acknowledge.present) {
@@ -143,7 +141,7 @@ bool ModbusSource::begin_write() {
 
 /// The header when it is due, records otherwise. On a slow line the header is always due: records come after it.
 void ModbusSource::begin_read(Clock::time_point now, Clock::time_point until) {
-  const CmmMap& map = settings_.modbus.map;
+  const CmmMap& map = settings_.map;
   // While open() waits for the start, the ring may hold an earlier run. Later a refused write keeps no record back.
   const bool wanted = stage_ == Stage::running || (!opening_ && stage_ != Stage::identify);
   const bool allowed = now >= next_read_;
@@ -192,19 +190,19 @@ void ModbusSource::transaction_done() {
       break;
     case Purpose::command:
       if (stage_ == Stage::command) stage_ = Stage::running;
-      next_header_ = Clock::now() + settings_.modbus.poll_period;
+      next_header_ = Clock::now() + settings_.poll_period;
       break;
   }
 }
 
 void ModbusSource::header_read() {
-  next_header_ = Clock::now() + settings_.modbus.poll_period;
-  const CmmHeader header = decode_header(registers_, settings_.modbus.map);
-  const std::string refusal = check_header(header, settings_.modbus.map);
-  if (refusal.empty()) return header_accepted(header);
+  next_header_ = Clock::now() + settings_.poll_period;
+  const CmmHeader header = decode_header(registers_, settings_.map);
+  const Failure failure = check_header(header, settings_.map);
+  if (!failure) return header_accepted(header);
   ++status_.damaged;
-  note_fault(status_, refusal);
-  if (++header_refusals_ >= kHeaderTries && opening_) refusal_ = refusal;
+  note_fault(status_, failure.message);
+  if (++header_refusals_ >= kHeaderTries && opening_) refusal_ = failure.message;
 }
 
 void ModbusSource::header_accepted(const CmmHeader& header) {
@@ -225,14 +223,14 @@ bool ModbusSource::foreign(const CmmHeader& header) const { return ring_.next() 
 
 /// A good header before the device has taken its command: each decides anew which one that is.
 void ModbusSource::identify(const CmmHeader& header) {
-  next_command_ = command_for(settings_.modbus.map, header, ring_.next(), opening_);
+  next_command_ = command_for(settings_.map, header, ring_.next(), opening_);
   status_.link = LinkState::up;
   if (stage_ == Stage::identify) stage_ = Stage::announce;
   back_off_.succeeded();
 }
 
 void ModbusSource::records_read() {
-  const std::size_t size = std::size_t{batch_.count} * settings_.modbus.map.record_size;
+  const std::size_t size = std::size_t{batch_.count} * settings_.map.record_size;
   const bool good = ring_.accept(batch_, std::span(registers_).first(size), host_time_us());
   // A bad record is looked at again after the header has told whether it still stands in the ring.
   if (!good) next_header_ = std::min(next_header_, Clock::now());
@@ -249,7 +247,7 @@ void ModbusSource::transaction_failed(LinkEvent event) {
   ++status_.resends;
   if (timeouts_ >= kTimeoutsToLost) status_.link = LinkState::lost;
   // A serial port stays open for a silent device. A TCP connection may be dead without telling.
-  if (settings_.kind == SourceKind::modbus_tcp && timeouts_ >= settings_.modbus.timeouts_to_reconnect) {
+  if (settings_.transport == ModbusTransport::tcp && timeouts_ >= settings_.timeouts_to_reconnect) {
     link_->close();
     link_lost(link_->fault());
   }
@@ -259,7 +257,7 @@ void ModbusSource::transaction_failed(LinkEvent event) {
 void ModbusSource::request_refused(Purpose purpose, LinkEvent event) {
   read_first_ = purpose == Purpose::acknowledge || purpose == Purpose::command;
   Clock::time_point& next = read_first_ ? next_write_ : next_read_;
-  next = Clock::now() + settings_.modbus.poll_period;
+  next = Clock::now() + settings_.poll_period;
   if (opening_ && event == LinkEvent::refused) {
     refusal_ = link_->fault() + "; correct the addresses, or lower batch, in the device file";
   }
@@ -277,14 +275,14 @@ void ModbusSource::link_lost(const std::string& fault) {
 bool ModbusSource::write_now(const NumberField& field, std::uint32_t value, Clock::time_point until) {
   if (!field.present || !link_->is_open()) return false;
   std::this_thread::sleep_until(std::min(until, link_->ready_at()));
-  if (link_->send(write_request(settings_.modbus.map, field, value)) != LinkEvent::done) return false;
+  if (link_->send(write_request(settings_.map, field, value)) != LinkEvent::done) return false;
   return link_->receive(registers_, until) == LinkEvent::done;
 }
 
 void ModbusSource::close() {
   const Clock::time_point until = Clock::now() + kCloseTime;
   if (link_->is_open() && purpose_ != Purpose::none) finish_transaction(until);
-  const CmmMap& map = settings_.modbus.map;
+  const CmmMap& map = settings_.map;
   const bool talks = link_->is_open() && status_.link == LinkState::up && foreign_headers_ == 0;
   if (talks && stored_ != sent_ && write_now(map.acknowledge, stored_, until)) sent_ = stored_;
   if (talks && !write_now(map.command, map.command_stop, until) && map.command.present) {

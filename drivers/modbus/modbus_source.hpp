@@ -15,11 +15,11 @@ namespace bladefit {
 /// the wire time of one reply whose first byte has come.
 class ModbusSource final : public ProbeSource {
  public:
-  explicit ModbusSource(const SourceSettings& settings);
+  ModbusSource(const ModbusSettings& settings, std::string name);
   ~ModbusSource() override;
 
   /// Takes at most about the connect timeout and ten reply timeouts. A link that breaks meanwhile is made again.
-  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
+  [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t sequence) override;
   void close() override;
@@ -50,10 +50,10 @@ class ModbusSource final : public ProbeSource {
   void transaction_failed(LinkEvent event);
   void request_refused(Purpose purpose, LinkEvent event);
   void link_lost(const std::string& fault);
-  [[nodiscard]] SourceError open_error(const std::string& what);
+  [[nodiscard]] Failure open_error(const std::string& what);
   [[nodiscard]] bool write_now(const NumberField& field, std::uint32_t value, Clock::time_point until);
 
-  const SourceSettings settings_;
+  const ModbusSettings settings_;
   const std::string name_;
   SourceStatus status_;
   RingReader ring_;

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "drivers/serial/serial_message.hpp"
+#include "drivers/serial/serial_settings.hpp"
 #include "drivers/source/point_queue.hpp"
 #include "drivers/source/probe_source.hpp"
-#include "drivers/source_settings.hpp"
 
 namespace bladefit {
 

@@ -42,23 +42,22 @@ void Acquisition::replay_recorded() {
 }
 
 bool Acquisition::open_source() {
-  if (const SourceError error = source_.open(last_sequence_, recorded_.run_id)) {
-    shared_.fail({error.bad_input ? Fault::bad_input : Fault::device, error.message});
+  if (const Failure failure = source_.open(last_sequence_, recorded_.run_id)) {
+    shared_.fail(failure);
     return false;
   }
   opened_ = true;
   run_id_ = source_.status().run_id;
   if (!recorded_.exists) {
-    const HostError error = journal_.start(settings_.identity, run_id_);
+    const Failure error = journal_.start(settings_.identity, run_id_);
     if (error) shared_.fail(error);
     return !error;
   }
   if (recorded_.run_id != run_id_) {
-    shared_.fail(
-        {Fault::bad_input,
-         fmt::format("the device is in run {}, the session folder holds run {}: its points have other numbers; "
-                     "name another session folder with --session",
-                     run_id_, recorded_.run_id)});
+    shared_.fail(bad_input(
+        fmt::format("the device is in run {}, the session folder holds run {}: its points have other numbers; "
+                    "name another session folder with --session",
+                    run_id_, recorded_.run_id)));
     return false;
   }
   last_point_ = Clock::now();
@@ -134,18 +133,20 @@ void Acquisition::announce_changes(const SourceStatus& status) {
 bool Acquisition::run_id_has_changed() {
   const std::uint32_t now = source_.status().run_id;
   if (now == run_id_) return false;
-  shared_.fail({Fault::device, fmt::format("the device has left run {} and started run {}, which numbers its points "
-                                           "from 1 again; start a session in another folder for it",
-                                           run_id_, now)});
+  shared_.fail(
+      device_failure(fmt::format("the device has left run {} and started run {}, which numbers its points "
+                                 "from 1 again; start a session in another folder for it",
+                                 run_id_, now)));
   return true;
 }
 
 /// No point came for the whole idle time, and none could have come: that is no end of a program.
 bool Acquisition::link_is_gone() {
   if (source_.status().link != LinkState::lost) return false;
-  shared_.fail({Fault::device, fmt::format("the link is lost and did not come back: {}; mend it, then run the session "
-                                           "again with the same --session to go on",
-                                           source_.status().last_fault)});
+  shared_.fail(
+      device_failure(fmt::format("the link is lost and did not come back: {}; mend it, then run the session "
+                                 "again with the same --session to go on",
+                                 source_.status().last_fault)));
   return true;
 }
 

@@ -40,17 +40,19 @@ class LocalizerMemory {
   std::size_t size_;
 };
 
-HostError check_identity(const std::string& path, const JournalContent& recorded, const SessionIdentity& wanted) {
+Failure check_identity(const std::string& path, const JournalContent& recorded, const SessionIdentity& wanted) {
   if (!recorded.exists) return {};
   if (recorded.identity.design_crc != wanted.design_crc) {
-    return {Fault::bad_input, fmt::format("{}: the session in this folder was probed against another design; name that "
-                                          "design, or another folder with --session",
-                                          path)};
+    return bad_input(
+        fmt::format("{}: the session in this folder was probed against another design; name that "
+                    "design, or another folder with --session",
+                    path));
   }
   if (recorded.identity.config_digest != wanted.config_digest) {
-    return {Fault::bad_input, fmt::format("{}: the session in this folder was started with other fit settings; repeat "
-                                          "those, or name another folder with --session",
-                                          path)};
+    return bad_input(
+        fmt::format("{}: the session in this folder was started with other fit settings; repeat "
+                    "those, or name another folder with --session",
+                    path));
   }
   return {};
 }
@@ -88,28 +90,29 @@ struct Host::Running {
   std::optional<Publication> publication;
   std::vector<std::thread> threads;
 
-  [[nodiscard]] HostError open_journal(const HostSettings& settings, const SessionIdentity& identity,
-                                       JournalContent& recorded);
-  [[nodiscard]] HostError make_localizer(const LocalizerConfig& config, const DesignImage& design);
+  [[nodiscard]] Failure open_journal(const HostSettings& settings, const SessionIdentity& identity,
+                                     JournalContent& recorded);
+  [[nodiscard]] Failure make_localizer(const LocalizerConfig& config, const DesignImage& design);
 };
 
-HostError Host::Running::open_journal(const HostSettings& settings, const SessionIdentity& identity,
-                                      JournalContent& recorded) {
-  if (const HostError error = folder.make(settings.session_directory)) return error;
+Failure Host::Running::open_journal(const HostSettings& settings, const SessionIdentity& identity,
+                                    JournalContent& recorded) {
+  if (const Failure error = folder.make(settings.session_directory)) return error;
   const std::string path = journal_path(settings.session_directory);
-  if (const HostError error = journal.open(path)) return error;
-  if (const HostError error = read_journal(path, recorded)) return error;
-  if (const HostError error = check_identity(path, recorded, identity)) return error;
-  return recorded.exists ? journal.resume(recorded.events.size()) : HostError{};
+  if (const Failure error = journal.open(path)) return error;
+  if (const Failure error = read_journal(path, recorded)) return error;
+  if (const Failure error = check_identity(path, recorded, identity)) return error;
+  return recorded.exists ? journal.resume(recorded.events.size()) : Failure{};
 }
 
-HostError Host::Running::make_localizer(const LocalizerConfig& config, const DesignImage& design) {
+Failure Host::Running::make_localizer(const LocalizerConfig& config, const DesignImage& design) {
   memory = std::make_unique<LocalizerMemory>(Localizer::memory_required(config));
   const Status status = Localizer::create(memory->bytes(), design, config, localizer);
   if (succeeded(status)) return {};
-  return {Fault::bad_input, fmt::format("the fit cannot start with these settings ({}); check capacity, tolerances, "
-                                        "leading-edge boxes and probe radius",
-                                        status_text(status))};
+  return bad_input(
+      fmt::format("the fit cannot start with these settings ({}); check capacity, tolerances, "
+                  "leading-edge boxes and probe radius",
+                  status_text(status)));
 }
 
 Host::Host(HostSettings settings, const DesignImage& design, ProbeSource& source,
@@ -127,15 +130,15 @@ Host::~Host() {
   }
 }
 
-HostError Host::start() {
+Failure Host::start() {
   running_ = std::make_unique<Running>();
   Running& running = *running_;
   const SessionIdentity identity{design_.header().crc32,
                                  config_digest(settings_.localizer, settings_.path_refine_points)};
   JournalContent recorded;
-  if (const HostError error = running.make_localizer(settings_.localizer, design_)) return error;
-  if (const HostError error = running.open_journal(settings_, identity, recorded)) return error;
-  if (const HostError error = running.server.open(settings_.panel)) return error;
+  if (const Failure error = running.make_localizer(settings_.localizer, design_)) return error;
+  if (const Failure error = running.open_journal(settings_, identity, recorded)) return error;
+  if (const Failure error = running.server.open(settings_.panel)) return error;
   if (recorded.exists) {
     shared_.notice(fmt::format("session resumed: {} events in the journal, {} bytes of an unfinished record cut off",
                                recorded.events.size(), recorded.torn_bytes));
@@ -171,7 +174,7 @@ SessionResult Host::finish() {
   SessionResult result{
       .end = shared_.end.load(), .error = shared_.error(), .report = {}, .points = {}, .verdicts = {}, .refused = {}};
   JournalContent recorded;
-  const HostError unreadable = read_journal(journal_path(settings_.session_directory), recorded);
+  const Failure unreadable = read_journal(journal_path(settings_.session_directory), recorded);
   if (unreadable && !result.error) result.error = unreadable;
   if (result.error) {
     result.end = SessionEnd::failed;

@@ -26,7 +26,7 @@ struct HostSettings {
 /// What a session came to.
 struct SessionResult {
   SessionEnd end = SessionEnd::running;
-  HostError error;  ///< set where `end` is failed; the rest then tells of the points on disk
+  Failure error;  ///< set where `end` is failed; the rest then tells of the points on disk
   FitReport report;
   std::vector<ProbePoint> points;      ///< as journalled, rising sequence
   std::vector<Verdict> verdicts;       ///< final ones; verdicts[i] is that of points[i]
@@ -51,7 +51,7 @@ class Host {
 
   /// Opens journal and panel and starts the threads. bad_input: the folder holds another session, or a setting is out
   /// of range; `device`: folder or port cannot be used. The source is opened later, by the acquisition thread.
-  [[nodiscard]] HostError start();
+  [[nodiscard]] Failure start();
 
   /// Port that the panel listens at; after start().
   [[nodiscard]] std::uint16_t panel_port() const;

@@ -61,7 +61,7 @@ inline const CompiledDesign& reference_design(const std::string& name) {
 /// The measured points of a subset [mm]; without approach vectors where the case does not use them.
 inline std::vector<ProbePoint> points_of(const ReferenceCase& c, const ReferenceSubset& subset) {
   PointsFile file = read_points_csv(subset.points, c.mm_per_unit);
-  if (!file.error.empty()) throw std::runtime_error(file.error);
+  if (file.error) throw std::runtime_error(file.error.message);
   return file.points;
 }
 

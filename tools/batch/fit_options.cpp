@@ -20,8 +20,8 @@ CLI::Option* add(CLI::App& command, const std::string& name, std::optional<T>& t
       name, [&target](const T& value) { target = value; }, help);
 }
 
-void take(const ConfigError& error) {
-  if (error) throw ToolError(error.message);
+void take(const Failure& error) {
+  if (error) throw ToolError(error);
 }
 
 double positive(double value, const char* option) {
@@ -98,7 +98,7 @@ void plan_mode(const FitSettings& settings, FitPlan& plan) {
   if (edges != "skip" && edges != "use") throw ToolError(fmt::format("--edges {}: give skip or use", edges));
   plan.localizer.edges = edges == "use" ? EdgePolicy::use : EdgePolicy::skip;
   if (settings.lock) {
-    if (const ConfigError error = parse_lock(*settings.lock, plan.localizer.locked))
+    if (const Failure error = parse_lock(*settings.lock, plan.localizer.locked))
       throw ToolError("--lock: " + error.message);
   }
 }

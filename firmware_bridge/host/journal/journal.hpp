@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/source/failure.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
-#include "firmware_bridge/host/threads/host_error.hpp"
 
 namespace bladefit {
 
@@ -24,7 +24,7 @@ inline constexpr std::size_t kJournalGroup = 256;
 
 /// Reads a journal. A torn tail is left out: what was not completed was never acknowledged. A file that is no journal,
 /// is of another version, or is damaged before its last group is refused (bad_input); a read error is `device`.
-[[nodiscard]] HostError read_journal(const std::string& path, JournalContent& content);
+[[nodiscard]] Failure read_journal(const std::string& path, JournalContent& content);
 
 /// Appends events to the journal of a session. One thread at a time owns it. The file is locked against a second host,
 /// and is removed again when the session ends before it has a header.
@@ -37,22 +37,22 @@ class Journal {
 
   /// Opens `path` (made when it is missing) and locks it. bad_input when another host holds it; `device` when the
   /// folder cannot be written.
-  [[nodiscard]] HostError open(const std::string& path);
+  [[nodiscard]] Failure open(const std::string& path);
 
   /// Starts the file anew with a header, on disk when this returns.
-  [[nodiscard]] HostError start(const SessionIdentity& identity, std::uint32_t run_id);
+  [[nodiscard]] Failure start(const SessionIdentity& identity, std::uint32_t run_id);
 
   /// Goes on after the `records` whole records that read_journal() found; whatever follows them is cut off.
-  [[nodiscard]] HostError resume(std::size_t records);
+  [[nodiscard]] Failure resume(std::size_t records);
 
   /// Appends up to kJournalGroup events; they are on disk when this returns without error. After an error the file
   /// ends where it ended before.
-  [[nodiscard]] HostError append(std::span<const StreamEvent> events);
+  [[nodiscard]] Failure append(std::span<const StreamEvent> events);
 
  private:
-  [[nodiscard]] HostError write_at_end(std::span<const std::byte> bytes);
-  [[nodiscard]] HostError cut_to(std::uint64_t size);
-  [[nodiscard]] HostError failure(const char* what) const;
+  [[nodiscard]] Failure write_at_end(std::span<const std::byte> bytes);
+  [[nodiscard]] Failure cut_to(std::uint64_t size);
+  [[nodiscard]] Failure failure(const char* what) const;
 
   std::string path_;
   int descriptor_ = -1;

@@ -33,7 +33,7 @@ void write_journal(Journal& journal, HostShared& shared) {
       shared.journal_wakeup.wait(kWait);
       continue;
     }
-    if (const HostError error = journal.append(std::span(group.events).first(group.count))) {
+    if (const Failure error = journal.append(std::span(group.events).first(group.count))) {
       shared.fail(error);
       return;
     }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/source/failure.hpp"
 #include "firmware_bridge/host/panel/panel_protocol.hpp"
-#include "firmware_bridge/host/threads/host_error.hpp"
 
 namespace bladefit {
 
@@ -33,7 +33,7 @@ class PanelServer {
   PanelServer& operator=(const PanelServer&) = delete;
 
   /// Starts to listen. bad_input for an address that does not exist here, `device` for a port in use.
-  [[nodiscard]] HostError open(const PanelServerSettings& settings);
+  [[nodiscard]] Failure open(const PanelServerSettings& settings);
 
   /// The port listened at.
   [[nodiscard]] std::uint16_t port() const { return port_; }

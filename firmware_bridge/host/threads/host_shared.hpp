@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/localizer.hpp"
+#include "drivers/source/failure.hpp"
 #include "drivers/source/probe_source.hpp"
-#include "firmware_bridge/host/threads/host_error.hpp"
 #include "firmware_bridge/host/threads/latest_value.hpp"
 #include "firmware_bridge/host/threads/ring.hpp"
 #include "firmware_bridge/host/threads/stream_event.hpp"
@@ -69,13 +69,13 @@ struct HostShared {
   std::atomic<bool> failed{false};
 
   /// Any thread but that of the fit. The first failure is kept; the session ends.
-  void fail(const HostError& error) {
+  void fail(const Failure& error) {
     const std::lock_guard lock(mutex_);
     if (!failed.load()) error_ = error;
     failed.store(true);
   }
 
-  [[nodiscard]] HostError error() {
+  [[nodiscard]] Failure error() {
     const std::lock_guard lock(mutex_);
     return error_;
   }
@@ -90,7 +90,7 @@ struct HostShared {
 
  private:
   std::mutex mutex_;
-  HostError error_;
+  Failure error_;
 };
 
 }  // namespace bladefit
