@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-#include "firmware_bridge/host/panel/panel_server.hpp"
+#include "firmware_bridge/host/panel/panel_address.hpp"
 #include "tools/commands/run_stop_flag.hpp"
 #include "tools/files/exit_codes.hpp"
 #include "tools/files/tool_error.hpp"

@@ -12,6 +12,7 @@
 #include "config/device_settings.hpp"
 #include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
+#include "firmware_bridge/host/panel/panel_address.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/results/session_report.hpp"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "drivers/text/read_file.hpp"
-#include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "tools/files/tool_error.hpp"
 #include "tools/results/result_file.hpp"
 #include "tools/results/verdicts_file.hpp"

@@ -2,29 +2,15 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "drivers/source/failure.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
 
 namespace bladefit {
 
-/// What a journal on disk holds.
-struct JournalContent {
-  bool exists = false;  ///< false: no journal, or one whose header was never completed
-  SessionIdentity identity;
-  std::uint32_t run_id = 0;         ///< of the device; 0 where it tells none
-  std::vector<StreamEvent> events;  ///< in the order in which they came
-  std::uint64_t torn_bytes = 0;     ///< bytes of a record or group of records at the end that was never completed
-};
-
 /// Records that one group commit writes at most. A crash can damage the last group only: each record says to which
 /// group it belongs.
 inline constexpr std::size_t kJournalGroup = 256;
-
-/// Reads a journal. A torn tail is left out: what was not completed was never acknowledged. A file that is no journal,
-/// is of another version, or is damaged before its last group is refused (bad_input); a read error is `device`.
-[[nodiscard]] Failure read_journal(const std::string& path, JournalContent& content);
 
 /// Appends events to the journal of a session. One thread at a time owns it. The file is locked against a second host,
 /// and is removed again when the session ends before it has a header.
@@ -39,7 +25,7 @@ class Journal {
   /// folder cannot be written.
   [[nodiscard]] Failure open(const std::string& path);
 
-  /// Starts the file anew with a header, on disk when this returns.
+  /// Starts the file again with a header, on disk when this returns.
   [[nodiscard]] Failure start(const SessionIdentity& identity, std::uint32_t run_id);
 
   /// Goes on after the `records` whole records that read_journal() found; whatever follows them is cut off.

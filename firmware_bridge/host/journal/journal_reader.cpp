@@ -1,10 +1,11 @@
+#include "firmware_bridge/host/journal/journal_reader.hpp"
+
 #include <fmt/core.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-
-#include "firmware_bridge/host/journal/journal.hpp"
+#include <span>
 
 namespace bladefit {
 namespace {

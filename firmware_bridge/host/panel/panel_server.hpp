@@ -17,9 +17,6 @@ struct PanelServerSettings {
   std::vector<std::string> allow{};  ///< numeric addresses that may connect; empty = every one that reaches `host`
 };
 
-/// Reads "HOST:PORT", "[IPV6]:PORT". False, and the arguments as before, when `text` is neither.
-[[nodiscard]] bool parse_address(const std::string& text, std::string& host, std::uint16_t& port);
-
 /// Modbus TCP server of the panel. It speaks the protocol itself, because the server half of libmodbus waits for slow
 /// clients and sleeps after a bad request; here no socket call waits, so that no client can hold up another one or the
 /// host. One thread owns it.

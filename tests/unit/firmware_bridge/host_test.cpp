@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "tests/unit/firmware_bridge/fixtures.hpp"
 
 namespace bladefit {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "tests/unit/firmware_bridge/fixtures.hpp"
 
 namespace bladefit {

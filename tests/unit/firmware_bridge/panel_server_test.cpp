@@ -10,6 +10,7 @@
 #include <memory>
 #include <thread>
 
+#include "firmware_bridge/host/panel/panel_address.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/threads/wakeup.hpp"
 #include "tests/unit/tools/panel_state.hpp"
