@@ -7,6 +7,7 @@
 #include "config/map_table.hpp"
 #include "config/table_reader.hpp"
 #include "drivers/modbus/cmm_header.hpp"
+#include "drivers/source_registry.hpp"
 
 namespace bladefit {
 namespace {
@@ -14,8 +15,9 @@ namespace {
 constexpr double kMmPerInch = 25.4;
 constexpr NumberRange kPause{1, 600000};  ///< [ms]
 
-void read_units(TableReader& table, double& mm_per_unit) {
-  table.read_choice<double>("units", mm_per_unit, {{"mm", 1.0}, {"in", kMmPerInch}});
+template <typename Units>
+void read_units(TableReader& table, Units& mm_per_unit) {
+  table.read_choice<Units>("units", mm_per_unit, {{"mm", 1.0}, {"in", kMmPerInch}});
 }
 
 void read_reconnect(TableReader& table, std::chrono::milliseconds& first, std::chrono::milliseconds& longest) {
@@ -97,53 +99,55 @@ void read_replay(TableReader table, ReplaySettings& replay) {
   table.finish();
 }
 
-void read_modbus_tables(TableReader& root, TomlDocument& document, SourceSettings& settings) {
-  if (auto table = root.table("tcp")) read_tcp(*table, settings.tcp);
-  if (auto table = root.table("line")) read_line(*table, settings.line);
-  if (auto table = root.table("modbus")) read_modbus(*table, settings.modbus);
-  if (auto table = root.table("map")) read_map_table(*table, settings.modbus.map);
-  if (document.error) return;
-  const std::string fault = check_map(settings.modbus.map);
-  if (!fault.empty()) root.fail("map", fault);
-}
-
 /// Only the tables of the kind are asked for, so that one of another kind is an unknown key.
-void read_tables(TableReader& root, TomlDocument& document, SourceSettings& settings) {
-  switch (settings.kind) {
-    case SourceKind::none:
-      return root.fail("kind", "is missing; set it to modbus-tcp, modbus-rtu, serial, dro or replay");
-    case SourceKind::modbus_tcp:
-    case SourceKind::modbus_rtu:
-      return read_modbus_tables(root, document, settings);
-    case SourceKind::serial:
-      if (auto table = root.table("line")) read_line(*table, settings.line);
-      if (auto table = root.table("serial")) read_serial(*table, settings.serial);
-      return;
-    case SourceKind::dro:
-      if (auto table = root.table("line")) read_line(*table, settings.line);
-      if (auto table = root.table("dro")) read_dro(*table, settings.dro);
-      return;
-    case SourceKind::replay:
-      if (auto table = root.table("replay")) read_replay(*table, settings.replay);
-      return;
+struct TablesReader {
+  TableReader& root;
+
+  void operator()(std::monostate) const { root.fail("kind", "is missing; set it to " + source_words()); }
+
+  /// Both transports are read: a URI may choose the other one.
+  void operator()(ModbusSettings& modbus) const {
+    if (auto table = root.table("tcp")) read_tcp(*table, modbus.tcp);
+    if (auto table = root.table("line")) read_line(*table, modbus.line);
+    if (auto table = root.table("modbus")) read_modbus(*table, modbus);
+    if (auto table = root.table("map")) read_map_table(*table, modbus.map);
+    if (!root.good()) return;
+    if (const Failure failure = check_map(modbus.map)) root.fail("map", failure.message);
   }
+
+  void operator()(SerialSettings& serial) const {
+    if (auto table = root.table("line")) read_line(*table, serial.line);
+    if (auto table = root.table("serial")) read_serial(*table, serial);
+  }
+
+  void operator()(DroSettings& dro) const {
+    if (auto table = root.table("line")) read_line(*table, dro.line);
+    if (auto table = root.table("dro")) read_dro(*table, dro);
+  }
+
+  void operator()(ReplaySettings& replay) const {
+    if (auto table = root.table("replay")) read_replay(*table, replay);
+  }
+};
+
+/// The defaults of the protocol that `kind` names.
+void read_kind(TableReader& root, SourceSettings& settings) {
+  std::vector<std::pair<std::string_view, const SourceProtocol*>> kinds;
+  for (const SourceProtocol& protocol : source_protocols()) kinds.emplace_back(protocol.word, &protocol);
+  const SourceProtocol* kind = nullptr;
+  root.read_choice<const SourceProtocol*>("kind", kind, kinds);
+  if (kind != nullptr) settings = kind->defaults();
 }
 
 }  // namespace
 
-ConfigError load_device(const std::string& path, SourceSettings& settings) {
+Failure load_device(const std::string& path, SourceSettings& settings) {
   TomlDocument document = read_toml(path);
   if (document.error) return document.error;
   SourceSettings read;
-  read.replay.mm_per_unit = settings.replay.mm_per_unit;
   TableReader root(document, document.root, "");
-  root.read_choice<SourceKind>("kind", read.kind,
-                               {{"modbus-tcp", SourceKind::modbus_tcp},
-                                {"modbus-rtu", SourceKind::modbus_rtu},
-                                {"serial", SourceKind::serial},
-                                {"dro", SourceKind::dro},
-                                {"replay", SourceKind::replay}});
-  if (!document.error) read_tables(root, document, read);
+  read_kind(root, read);
+  if (root.good()) std::visit(TablesReader{root}, read);
   root.finish();
   if (!document.error) settings = std::move(read);
   return document.error;

@@ -123,57 +123,57 @@ std::string comment(std::string_view text) {
 
 }  // namespace
 
-ConfigError set(const NumberOption& option, double given, FitSettings& settings) {
+Failure set(const NumberOption& option, double given, FitSettings& settings) {
   const bool inside = given >= option.low && given <= option.high && !(option.above && given == option.low);
   if (inside) {
     settings.*option.value = given;
     return {};
   }
   if (option.above)
-    return {fmt::format("{} is out of range; give one above {}, up to {}", given, option.low, option.high)};
+    return bad_input(fmt::format("{} is out of range; give one above {}, up to {}", given, option.low, option.high));
   if (option.high == kLargest && option.low == 0)
-    return {fmt::format("{} is out of range; give 0 or more, up to {}", given, option.high)};
-  return {fmt::format("{} is out of range; give a number from {} to {}", given, option.low, option.high)};
+    return bad_input(fmt::format("{} is out of range; give 0 or more, up to {}", given, option.high));
+  return bad_input(fmt::format("{} is out of range; give a number from {} to {}", given, option.low, option.high));
 }
 
-ConfigError find_word(std::span<const std::string_view> words, std::string_view text, std::size_t& place) {
+Failure find_word(std::span<const std::string_view> words, std::string_view text, std::size_t& place) {
   const auto found = std::ranges::find(words, text);
-  if (found == words.end()) return {fmt::format("'{}' is none of: {}", text, fmt::join(words, ", "))};
+  if (found == words.end()) return bad_input(fmt::format("'{}' is none of: {}", text, fmt::join(words, ", ")));
   place = static_cast<std::size_t>(found - words.begin());
   return {};
 }
 
-ConfigError set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings) {
+Failure set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings) {
   if (given.size() > ToleranceMap::kMaxBoxes)
-    return {fmt::format("{} boxes, at most {} are possible", given.size(), ToleranceMap::kMaxBoxes)};
+    return bad_input(fmt::format("{} boxes, at most {} are possible", given.size(), ToleranceMap::kMaxBoxes));
   std::vector<ParameterBox> boxes(given.size());
   for (std::size_t k = 0; k < given.size(); ++k) {
-    if (const ConfigError error = parse_leading_edge(given[k], boxes[k])) return error;
+    if (const Failure error = parse_leading_edge(given[k], boxes[k])) return error;
   }
   settings.*option.value = std::move(boxes);
   return {};
 }
 
-ConfigError set(const WindowOption& option, const std::string& given, FitSettings& settings) {
+Failure set(const WindowOption& option, const std::string& given, FitSettings& settings) {
   ParameterWindow window;
-  if (const ConfigError error = parse_window(given, window)) return error;
+  if (const Failure error = parse_window(given, window)) return error;
   settings.*option.value = window;
   return {};
 }
 
-ConfigError set(const LocksOption& option, const std::string& given, FitSettings& settings) {
+Failure set(const LocksOption& option, const std::string& given, FitSettings& settings) {
   std::uint8_t locked = 0;
-  if (const ConfigError error = parse_lock(given, locked)) return error;
+  if (const Failure error = parse_lock(given, locked)) return error;
   settings.*option.value = locked;
   return {};
 }
 
-ConfigError set(const PathOption& option, const std::string& given, FitSettings& settings) {
+Failure set(const PathOption& option, const std::string& given, FitSettings& settings) {
   settings.*option.value = given;
   return {};
 }
 
-ConfigError set(const FlagOption& option, bool given, FitSettings& settings) {
+Failure set(const FlagOption& option, bool given, FitSettings& settings) {
   settings.*option.value = given;
   return {};
 }

@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "config/config_error.hpp"
 #include "config/fit_settings.hpp"
 #include "core/localizer.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -68,20 +68,20 @@ using FitOptionKind = std::variant<NumberOption, ChoiceOption<FitMode>, ChoiceOp
                                    ChoiceOption<DesignUnit>, ChoiceOption<RegionPolicy>, ChoiceOption<EdgePolicy>,
                                    ChoiceOption<Loss>, BoxesOption, WindowOption, LocksOption, PathOption, FlagOption>;
 
-[[nodiscard]] ConfigError set(const NumberOption& option, double given, FitSettings& settings);
-[[nodiscard]] ConfigError set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings);
-[[nodiscard]] ConfigError set(const WindowOption& option, const std::string& given, FitSettings& settings);
-[[nodiscard]] ConfigError set(const LocksOption& option, const std::string& given, FitSettings& settings);
-[[nodiscard]] ConfigError set(const PathOption& option, const std::string& given, FitSettings& settings);
-[[nodiscard]] ConfigError set(const FlagOption& option, bool given, FitSettings& settings);
+[[nodiscard]] Failure set(const NumberOption& option, double given, FitSettings& settings);
+[[nodiscard]] Failure set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings);
+[[nodiscard]] Failure set(const WindowOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] Failure set(const LocksOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] Failure set(const PathOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] Failure set(const FlagOption& option, bool given, FitSettings& settings);
 
 /// The place of a text among words. Error: it is none of them.
-[[nodiscard]] ConfigError find_word(std::span<const std::string_view> words, std::string_view text, std::size_t& place);
+[[nodiscard]] Failure find_word(std::span<const std::string_view> words, std::string_view text, std::size_t& place);
 
 template <typename Enum>
-[[nodiscard]] ConfigError set(const ChoiceOption<Enum>& option, const std::string& given, FitSettings& settings) {
+[[nodiscard]] Failure set(const ChoiceOption<Enum>& option, const std::string& given, FitSettings& settings) {
   std::size_t place = 0;
-  if (const ConfigError error = find_word(option.words, given, place)) return error;
+  if (const Failure error = find_word(option.words, given, place)) return error;
   settings.*option.value = static_cast<Enum>(place);
   return {};
 }

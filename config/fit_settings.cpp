@@ -6,7 +6,7 @@
 
 namespace bladefit {
 
-ConfigError load_fit(const std::string& path, FitSettings& settings) {
+Failure load_fit(const std::string& path, FitSettings& settings) {
   TomlDocument document = read_toml(path);
   if (document.error) return document.error;
   FitSettings read = settings;

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "config/config_error.hpp"
 #include "config/fit_text.hpp"
 #include "config/outward_option.hpp"
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/loss.hpp"
 #include "core/fit/point_policy.hpp"
 #include "core/geometry/surface/design_image.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -40,6 +40,6 @@ struct FitSettings {
 /// Reads the table [fit] of a TOML file such as config/fit.toml into `settings`. Relative paths are those of the file's
 /// folder, made ready to be used from the working directory.
 /// Errors: unreadable file, TOML syntax, unknown key, wrong type, out of range; then `settings` is as before.
-[[nodiscard]] ConfigError load_fit(const std::string& path, FitSettings& settings);
+[[nodiscard]] Failure load_fit(const std::string& path, FitSettings& settings);
 
 }  // namespace bladefit

@@ -18,7 +18,7 @@ void read_option(TableReader& table, std::string_view key, const Kind& kind, Fit
     table.read(key, given);
   }
   if (!table.good()) return;
-  if (const ConfigError error = set(kind, given, settings)) table.fail(key, error.message);
+  if (const Failure error = set(kind, given, settings)) table.fail(key, error.message);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ bool parse_interval(std::string_view text, double& low, double& high) {
 
 }  // namespace
 
-ConfigError parse_lock(std::string_view text, std::uint8_t& locked) {
+Failure parse_lock(std::string_view text, std::uint8_t& locked) {
   std::uint32_t read = 0;
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t comma = rest.find(',');
@@ -45,16 +45,16 @@ ConfigError parse_lock(std::string_view text, std::uint8_t& locked) {
     }
     read |= 1U << static_cast<unsigned>(known - kDegreesOfFreedom.begin());
   }
-  if (read == 63U) return {"all six degrees of freedom are locked; leave one free for the fit"};
+  if (read == 63U) return bad_input("all six degrees of freedom are locked; leave one free for the fit");
   locked = static_cast<std::uint8_t>(read);
   return {};
 }
 
-ConfigError parse_leading_edge(std::string_view text, ParameterBox& box) {
-  const ConfigError wrong{
+Failure parse_leading_edge(std::string_view text, ParameterBox& box) {
+  const Failure wrong = bad_input(
       fmt::format("'{}' is no leading-edge box; write [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6 with limits from 0 to 1, "
                   "the lower first",
-                  text)};
+                  text));
   std::string_view rest = text;
   ParameterBox read;
   std::string_view part = take_part(rest);
@@ -71,9 +71,9 @@ ConfigError parse_leading_edge(std::string_view text, ParameterBox& box) {
   return {};
 }
 
-ConfigError parse_window(std::string_view text, ParameterWindow& window) {
+Failure parse_window(std::string_view text, ParameterWindow& window) {
   if (parse_interval(text, window.low, window.high)) return {};
-  return {fmt::format("'{}' is no window; write 0.05:0.95, limits from 0 to 1, the lower first", text)};
+  return bad_input(fmt::format("'{}' is no window; write 0.05:0.95, limits from 0 to 1, the lower first", text));
 }
 
 }  // namespace bladefit

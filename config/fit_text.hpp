@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "config/config_error.hpp"
 #include "core/inspection/tolerance_map.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -15,16 +15,16 @@ struct ParameterWindow {
 
 /// A leading-edge box as on the command line: `[PATCH:]u:0.4:0.6` or `[PATCH:]v:0.4:0.6`. Without PATCH it is patch 0;
 /// the other parameter runs from 0 to 1. Error: a line that names the text and the fix.
-[[nodiscard]] ConfigError parse_leading_edge(std::string_view text, ParameterBox& box);
+[[nodiscard]] Failure parse_leading_edge(std::string_view text, ParameterBox& box);
 
 /// Names of the degrees of freedom of the rigid motion, in the order of their bits.
 inline constexpr std::array<std::string_view, 6> kDegreesOfFreedom = {"tx", "ty", "tz", "rx", "ry", "rz"};
 
 /// Degrees of freedom as on the command line, `tx,rz`: bits 0 to 5 for tx, ty, tz, rx, ry, rz. Error: a line that names
 /// the text and the fix.
-[[nodiscard]] ConfigError parse_lock(std::string_view text, std::uint8_t& locked);
+[[nodiscard]] Failure parse_lock(std::string_view text, std::uint8_t& locked);
 
 /// A window `a:b` as on the command line. Error: a line that names the text and the fix.
-[[nodiscard]] ConfigError parse_window(std::string_view text, ParameterWindow& window);
+[[nodiscard]] Failure parse_window(std::string_view text, ParameterWindow& window);
 
 }  // namespace bladefit

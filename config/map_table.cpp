@@ -67,8 +67,7 @@ void read_commands(TableReader table, CmmMap& map) {
 
 void read_map_table(TableReader& table, CmmMap& map) {
   constexpr std::string_view kPlace = "address";
-  table.read_choice<WordOrder>("word_order", map.word_order,
-                               {{"high_first", WordOrder::high_first}, {"low_first", WordOrder::low_first}});
+  table.read_choice<WordOrder>("word_order", map.word_order, kWordOrders);
   table.read_choice<RegisterTable>("table", map.table,
                                    {{"input", RegisterTable::input}, {"holding", RegisterTable::holding}});
   read_field(table, "version", kPlace, map.version);
@@ -77,7 +76,7 @@ void read_map_table(TableReader& table, CmmMap& map) {
   read_field(table, "newest", kPlace, map.newest);
   read_field(table, "capacity", kPlace, map.capacity);
   table.read_whole("ring_capacity", map.ring_capacity, kWord);
-  read_field(table, "record_size", kPlace, map.record_size_told);
+  read_field(table, "record_size", kPlace, map.reported_record_size);
   read_field(table, "run_id", kPlace, map.run_id);
   read_field(table, "test_constant", kPlace, map.test_constant);
   table.read("expected_test_constant", map.expected_test_constant, NumberRange{-1e300, 1e300});

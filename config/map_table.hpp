@@ -1,6 +1,6 @@
 #pragma once
 #include "config/table_reader.hpp"
-#include "drivers/source_settings.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
 
 namespace bladefit {
 

@@ -10,6 +10,7 @@
 #include "config/fit_table.hpp"
 #include "config/table_reader.hpp"
 #include "core/localizer/check_config.hpp"
+#include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
 
 namespace bladefit {
@@ -17,29 +18,14 @@ namespace {
 
 constexpr double kLongestIdle = 1e6;  ///< [s]
 
-/// Whether what stands behind the first colon of a source URI is a path. The compiler asks for every new protocol.
-bool names_a_path(SourceKind kind) {
-  switch (kind) {
-    case SourceKind::modbus_rtu:
-    case SourceKind::serial:
-    case SourceKind::dro:
-    case SourceKind::replay:
-      return true;
-    case SourceKind::none:
-    case SourceKind::modbus_tcp:
-      return false;
-  }
-  return false;
-}
-
-/// A source URI; a relative path in it is taken from the folder of the file.
+/// A source URI, whose path is made one of the working directory.
 void read_source(TableReader& table, std::optional<std::string>& source) {
   if (!table.has("source")) return;
   table.read("source", source);
   if (!table.good()) return;
   SourceSettings scratch;
-  if (const std::string error = apply_source_uri(*source, scratch); !error.empty()) return table.fail("source", error);
-  if (!names_a_path(scratch.kind)) return;
+  if (const Failure failure = apply_source_uri(*source, scratch)) return table.fail("source", failure.message);
+  if (!protocol_of(scratch)->place_is_path) return;
   const std::size_t path = source->find(':') + 1;
   source = source->substr(0, path) + table.from_folder(source->substr(path));
 }
@@ -68,7 +54,7 @@ void read_panel(TableReader& table, PanelSettings& panel) {
 
 }  // namespace
 
-ConfigError load_session(const std::string& path, SessionSettings& settings) {
+Failure load_session(const std::string& path, SessionSettings& settings) {
   TomlDocument document = read_toml(path);
   if (document.error) return document.error;
   SessionSettings read = settings;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "config/config_error.hpp"
 #include "config/fit_settings.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -33,6 +33,6 @@ struct SessionSettings {
 
 /// Reads a TOML file such as config/session.toml into `settings`.
 /// Errors: unreadable file, TOML syntax, unknown key, wrong type, out of range; then `settings` is as before.
-[[nodiscard]] ConfigError load_session(const std::string& path, SessionSettings& settings);
+[[nodiscard]] Failure load_session(const std::string& path, SessionSettings& settings);
 
 }  // namespace bladefit

@@ -64,15 +64,15 @@ TomlDocument read_toml(const std::string& path) {
   TomlDocument document;
   document.name = path;
   std::string text;
-  if (const std::string fault = read_file(path, kMaxFileSize, text); !fault.empty()) {
-    document.error.message = fmt::format("{}: {}; give a readable TOML file", path, fault);
+  if (const Failure failure = read_file(path, kMaxFileSize, text)) {
+    document.error = bad_input(fmt::format("{}: {}; give a readable TOML file", path, failure.message));
     return document;
   }
   try {
     document.root = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    document.error.message =
-        fmt::format("{}:{}: {}; correct the TOML", path, error.source().begin.line, error.description());
+    document.error =
+        bad_input(fmt::format("{}:{}: {}; correct the TOML", path, error.source().begin.line, error.description()));
   }
   return document;
 }
@@ -88,7 +88,7 @@ void TableReader::fail(std::string_view key, const std::string& what) {
   if (document_->error) return;
   const toml::node* node = table_->get(key);
   const toml::source_position place = node == nullptr ? table_->source().begin : node->source().begin;
-  document_->error.message = fmt::format("{}:{}: key '{}': {}", document_->name, place.line, full_name(key), what);
+  document_->error = bad_input(fmt::format("{}:{}: key '{}': {}", document_->name, place.line, full_name(key), what));
 }
 
 /// The value of a key; null where it is absent or an error was found before.
@@ -208,9 +208,9 @@ void TableReader::finish() {
     const std::string_view word = key.str();
     if (std::find(asked_.begin(), asked_.end(), word) != asked_.end()) continue;
     const std::string nearest = nearest_name(word, asked_);
-    const std::string mend = nearest.empty() ? "known keys: " + joined(asked_) : "did you mean '" + nearest + "'?";
-    document_->error.message =
-        fmt::format("{}:{}: unknown key '{}'; {}", document_->name, key.source().begin.line, full_name(word), mend);
+    const std::string fix = nearest.empty() ? "known keys: " + joined(asked_) : "did you mean '" + nearest + "'?";
+    document_->error = bad_input(
+        fmt::format("{}:{}: unknown key '{}'; {}", document_->name, key.source().begin.line, full_name(word), fix));
     return;
   }
 }

@@ -4,12 +4,13 @@
 #include <chrono>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "config/config_error.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -23,7 +24,7 @@ struct NumberRange {
 struct TomlDocument {
   std::string name;
   toml::table root;
-  ConfigError error;
+  Failure error;
 };
 
 /// Reads and parses a file. Errors: unreadable, syntax.
@@ -52,6 +53,11 @@ class TableReader {
   template <typename Value>
   void read_choice(std::string_view key, Value& value,
                    std::initializer_list<std::pair<std::string_view, Value>> choices) {
+    read_choice<Value>(key, value, std::span(choices.begin(), choices.size()));
+  }
+
+  template <typename Value>
+  void read_choice(std::string_view key, Value& value, std::span<const std::pair<std::string_view, Value>> choices) {
     std::string text;
     if (!read_text(key, text)) return;
     std::string names;

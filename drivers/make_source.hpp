@@ -6,7 +6,7 @@
 
 namespace bladefit {
 
-/// The source that `settings.kind` names, not yet open. Null where the kind is `none`.
+/// The source that these are the settings of, not yet open. Null where nobody has said which protocol it is.
 [[nodiscard]] std::unique_ptr<ProbeSource> make_source(const SourceSettings& settings);
 
 }  // namespace bladefit

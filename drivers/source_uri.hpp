@@ -2,15 +2,16 @@
 #include <string>
 #include <string_view>
 
+#include "drivers/source/failure.hpp"
 #include "drivers/source_settings.hpp"
 
 namespace bladefit {
 
 /// Puts what a source URI says into `settings` and leaves the rest as it is, so that a device file may be read first:
 ///   modbus-tcp://HOST:PORT | modbus-rtu:DEVICE | serial:DEVICE | replay:FILE.csv
-/// HOST is a name, an IPv4 address or an IPv6 address in brackets. A `serial:` URI keeps the format `dro` of a device
-/// file. Returns the error: one line that names the part and the mend; empty = none, then `settings` is changed.
-[[nodiscard]] std::string apply_source_uri(std::string_view uri, SourceSettings& settings);
+/// A `serial:` URI keeps the format `dro` of a device file. bad_input: one line that names the part and the fix; then
+/// `settings` is as before.
+[[nodiscard]] Failure apply_source_uri(std::string_view uri, SourceSettings& settings);
 
 /// The source as it is named in messages: modbus-tcp://HOST:PORT, modbus-rtu:DEVICE, serial:DEVICE, dro:DEVICE,
 /// replay:FILE.

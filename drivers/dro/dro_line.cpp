@@ -41,22 +41,23 @@ std::optional<double> parse_number(std::string_view word, char decimal_mark) {
 
 }  // namespace
 
-std::string parse_dro_line(std::string_view line, const DroSettings& settings, std::array<double, 3>& position) {
+Failure parse_dro_line(std::string_view line, const DroSettings& settings, std::array<double, 3>& position) {
   std::array<double, 3> read{};
   for (const char axis : settings.order) {
     if (settings.labels) {
       const std::string_view label = take_word(line, settings);
       const bool same = label.size() == 1 && std::tolower(static_cast<unsigned char>(label[0])) == axis;
-      if (!same) return fmt::format("the label {} is missing", static_cast<char>(std::toupper(axis)));
+      if (!same) return bad_input(fmt::format("the label {} is missing", static_cast<char>(std::toupper(axis))));
     }
     const std::optional<double> number = parse_number(take_word(line, settings), settings.decimal_mark);
     const double value = number.value_or(0) * settings.mm_per_unit;
     if (!number || !std::isfinite(value)) {
-      return fmt::format("no number stands for {}", static_cast<char>(std::toupper(axis)));
+      return bad_input(fmt::format("no number stands for {}", static_cast<char>(std::toupper(axis))));
     }
     read[static_cast<std::size_t>(axis - 'x')] = value;
   }
-  if (line.find_first_not_of(settings.separators) != std::string_view::npos) return "there is more than three numbers";
+  if (line.find_first_not_of(settings.separators) != std::string_view::npos)
+    return bad_input("there is more than three numbers");
   position = read;
   return {};
 }

@@ -8,7 +8,6 @@
 #include "drivers/dro/dro_line.hpp"
 #include "drivers/source/host_clock.hpp"
 #include "drivers/source/source_fault.hpp"
-#include "drivers/source_uri.hpp"
 
 namespace bladefit {
 namespace {
@@ -25,19 +24,19 @@ std::string printable(std::string_view line) {
 
 }  // namespace
 
-DroSource::DroSource(const SourceSettings& settings)
+DroSource::DroSource(const DroSettings& settings, std::string name)
     : settings_(settings),
-      name_(source_name(settings)),
-      port_(settings.line, settings.dro.reconnect_first, settings.dro.reconnect_longest) {}
+      name_(std::move(name)),
+      port_(settings.line, settings.reconnect_first, settings.reconnect_longest) {}
 
-SourceError DroSource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
+Failure DroSource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
   status_ = {};
   points_.clear();
   line_.clear();
   too_long_ = false;
   first_line_ = true;
   next_ = after + 1;
-  if (const std::string fault = port_.open(); !fault.empty()) return {fmt::format("{}: {}", name_, fault)};
+  if (const Failure failure = port_.open()) return device_failure(fmt::format("{}: {}", name_, failure.message));
   status_.link = LinkState::up;
   status_.last_fault = port_->remark();
   return {};
@@ -68,13 +67,14 @@ void DroSource::take(char byte) {
 }
 
 void DroSource::take_line() {
-  const std::string& prefix = settings_.dro.ignore_prefix;
+  const std::string& prefix = settings_.ignore_prefix;
   const bool ignored = !prefix.empty() && line_.starts_with(prefix);
-  if (line_.find_first_not_of(settings_.dro.separators) == std::string::npos || ignored) return;
+  if (line_.find_first_not_of(settings_.separators) == std::string::npos || ignored) return;
   const bool perhaps_cut = std::exchange(first_line_, false);
   ProbePoint point;
-  const std::string fault = too_long_ ? "the line is too long" : parse_dro_line(line_, settings_.dro, point.position);
-  if (fault.empty()) {
+  const Failure failure =
+      too_long_ ? bad_input("the line is too long") : parse_dro_line(line_, settings_, point.position);
+  if (!failure) {
     point.sequence = next_++;
     point.time_us = host_time_us();
     points_.push(point);
@@ -83,7 +83,7 @@ void DroSource::take_line() {
     return;
   }
   ++status_.damaged;
-  const std::string text = fmt::format("{} in the line '{}'; probe the point again", fault, printable(line_));
+  const std::string text = fmt::format("{} in the line '{}'; probe the point again", failure.message, printable(line_));
   if (perhaps_cut) {
     note_fault(status_, text);
   } else {

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "drivers/dro/dro_settings.hpp"
 #include "drivers/serial/lasting_port.hpp"
 #include "drivers/source/point_queue.hpp"
 #include "drivers/source/probe_source.hpp"
@@ -11,9 +12,9 @@ namespace bladefit {
 /// cannot be read, or a lost link, is a loss. Points are numbered here; run id and end are unknown.
 class DroSource final : public ProbeSource {
  public:
-  explicit DroSource(const SourceSettings& settings);
+  DroSource(const DroSettings& settings, std::string name);
 
-  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
+  [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t) override {}
   void close() override { port_->close(); }
@@ -28,7 +29,7 @@ class DroSource final : public ProbeSource {
   void take(char byte);
   void take_line();
 
-  const SourceSettings settings_;
+  const DroSettings settings_;
   const std::string name_;
   SourceStatus status_;
   LastingPort port_;

@@ -16,8 +16,8 @@ constexpr std::uint32_t kRegisters = 65536;
 constexpr double kTestConstantTolerance = 1e-6;  ///< relative; a float32 has it
 
 std::array<const NumberField*, 7> header_fields(const CmmMap& map) {
-  return {&map.version,          &map.status, &map.newest,       &map.capacity,
-          &map.record_size_told, &map.run_id, &map.test_constant};
+  return {&map.version, &map.status,       &map.newest, &map.capacity, &map.reported_record_size,
+          &map.run_id,  &map.test_constant};
 }
 
 struct NamedField {
@@ -55,30 +55,33 @@ Extent header_extent(const CmmMap& map) {
   return extent;
 }
 
-std::string check_header_place(const CmmMap& map) {
+Failure check_header_place(const CmmMap& map) {
   const Extent extent = header_extent(map);
-  if (extent.end > kRegisters) return "a header field ends beyond register 65535; correct its address";
+  if (extent.end > kRegisters) return bad_input("a header field ends beyond register 65535; correct its address");
   const std::uint32_t count = extent.end - extent.first;
   if (count <= MODBUS_MAX_READ_REGISTERS) return {};
-  return fmt::format("the header fields span {} registers; one read takes at most {}", count,
-                     MODBUS_MAX_READ_REGISTERS);
+  return bad_input(
+      fmt::format("the header fields span {} registers; one read takes at most {}", count, MODBUS_MAX_READ_REGISTERS));
 }
 
-std::string check_record_fields(const CmmMap& map) {
+Failure check_record_fields(const CmmMap& map) {
   if (map.record_size == 0 || map.record_size > MODBUS_MAX_READ_REGISTERS) {
-    return fmt::format("record_size is {} registers; one read takes 1..{}", map.record_size, MODBUS_MAX_READ_REGISTERS);
+    return bad_input(
+        fmt::format("record_size is {} registers; one read takes 1..{}", map.record_size, MODBUS_MAX_READ_REGISTERS));
   }
   if (map.crc.present && map.crc.type != NumberType::uint16)
-    return "crc is not a uint16; CRC-16/MODBUS takes one register";
+    return bad_input("crc is not a uint16; CRC-16/MODBUS takes one register");
   for (const NamedField& named : record_fields(map)) {
     if (!named.field->present) continue;
     if (!std::isfinite(named.field->scale) || named.field->scale == 0) {
-      return fmt::format("the scale of {} is {}; give a number other than 0", named.name, named.field->scale);
+      return bad_input(
+          fmt::format("the scale of {} is {}; give a number other than 0", named.name, named.field->scale));
     }
     const std::uint32_t end = named.field->address + std::uint32_t{register_count(named.field->type)};
     if (end > map.record_size) {
-      return fmt::format("{} ends at offset {}, beyond the {} registers of a record; correct its offset or record_size",
-                         named.name, end - 1, map.record_size);
+      return bad_input(
+          fmt::format("{} ends at offset {}, beyond the {} registers of a record; correct its offset or record_size",
+                      named.name, end - 1, map.record_size));
     }
   }
   return {};
@@ -86,6 +89,10 @@ std::string check_record_fields(const CmmMap& map) {
 
 WordOrder other(WordOrder order) {
   return order == WordOrder::high_first ? WordOrder::low_first : WordOrder::high_first;
+}
+
+std::string_view word_order_name(WordOrder order) {
+  return std::ranges::find(kWordOrders, order, &std::pair<std::string_view, WordOrder>::second)->first;
 }
 
 bool near(double value, double expected) {
@@ -109,7 +116,7 @@ CmmHeader decode_header(std::span<const std::uint16_t> registers, const CmmMap& 
   header.status = static_cast<std::uint16_t>(whole(map.status, 0));
   header.newest = whole(map.newest, 0);
   header.capacity = map.ring_capacity != 0 ? map.ring_capacity : whole(map.capacity, 0);
-  header.record_size = whole(map.record_size_told, map.record_size);
+  header.record_size = whole(map.reported_record_size, map.record_size);
   header.run_id = whole(map.run_id, 0);
   if (map.test_constant.present) {
     const auto words = registers.subspan(static_cast<std::size_t>(map.test_constant.address - first),
@@ -122,43 +129,48 @@ CmmHeader decode_header(std::span<const std::uint16_t> registers, const CmmMap& 
   return header;
 }
 
-std::string check_header(const CmmHeader& header, const CmmMap& map) {
+Failure check_header(const CmmHeader& header, const CmmMap& map) {
   if (header.version != map.expected_version) {
-    return fmt::format("it has register map version {}, not {}; give a device file that describes its map",
-                       header.version, map.expected_version);
+    return device_failure(
+        fmt::format("it has register map version {}, not {}; give a device file that describes its map", header.version,
+                    map.expected_version));
   }
   if (header.test_constant_provided && !near(header.test_constant, map.expected_test_constant)) {
     if (near(header.test_constant_swapped, map.expected_test_constant)) {
-      return fmt::format("its registers come in the other word order; set word_order = \"{}\" in the device file",
-                         map.word_order == WordOrder::high_first ? "low_first" : "high_first");
+      return device_failure(
+          fmt::format("its registers come in the other word order; set word_order = \"{}\" in the device file",
+                      word_order_name(other(map.word_order))));
     }
-    return fmt::format("its test constant reads {}, not {}; correct word_order or test_constant in the device file",
-                       header.test_constant, map.expected_test_constant);
+    return device_failure(
+        fmt::format("its test constant reads {}, not {}; correct word_order or test_constant in the device file",
+                    header.test_constant, map.expected_test_constant));
   }
   if (header.record_size != map.record_size) {
-    return fmt::format("its records have {} registers, not {}; correct record_size in the device file",
-                       header.record_size, map.record_size);
+    return device_failure(fmt::format("its records have {} registers, not {}; correct record_size in the device file",
+                                      header.record_size, map.record_size));
   }
-  if (header.capacity == 0) return "its ring has no records; set ring_capacity in the device file";
+  if (header.capacity == 0) return device_failure("its ring has no records; set ring_capacity in the device file");
   const std::uint64_t end = map.records + std::uint64_t{header.capacity} * map.record_size;
   if (end <= kRegisters) return {};
-  return fmt::format(
-      "its ring of {} records ends at register {}, beyond 65535; correct ring_capacity in the device file",
-      header.capacity, end - 1);
+  return device_failure(
+      fmt::format("its ring of {} records ends at register {}, beyond 65535; correct ring_capacity in the device file",
+                  header.capacity, end - 1));
 }
 
-std::string check_map(const CmmMap& map) {
-  if (!map.newest.present) return "newest is missing; without it new records cannot be seen";
-  if (!map.sequence.present) return "sequence is missing; without it a late reply cannot be told from a record";
+Failure check_map(const CmmMap& map) {
+  if (!map.newest.present) return bad_input("newest is missing; without it new records cannot be seen");
+  if (!map.sequence.present)
+    return bad_input("sequence is missing; without it a late reply cannot be told from a record");
   for (const NumberField& axis : map.position) {
-    if (!axis.present) return "x, y or z is missing; a point needs all three";
+    if (!axis.present) return bad_input("x, y or z is missing; a point needs all three");
   }
   const bool directed = map.direction[0].present;
   if (map.direction[1].present != directed || map.direction[2].present != directed) {
-    return "i, j and k must be all there or all absent";
+    return bad_input("i, j and k must be all there or all absent");
   }
-  if (!map.capacity.present && map.ring_capacity == 0) return "ring_capacity is missing; the device does not tell it";
-  if (std::string fault = check_header_place(map); !fault.empty()) return fault;
+  if (!map.capacity.present && map.ring_capacity == 0)
+    return bad_input("ring_capacity is missing; the device does not tell it");
+  if (Failure fault = check_header_place(map)) return fault;
   return check_record_fields(map);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <string>
 
-#include "drivers/source_settings.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -14,7 +14,7 @@ struct CmmHeader {
   std::uint32_t newest = 0;       ///< sequence of the newest record; 0 = none yet
   std::uint32_t capacity = 0;     ///< [records]
   std::uint32_t record_size = 0;  ///< [registers]
-  std::uint32_t run_id = 0;       ///< 0 where the device tells none
+  std::uint32_t run_id = 0;       ///< 0 where the device has none
   bool test_constant_provided = false;
   double test_constant = 0;
   double test_constant_swapped = 0;  ///< as the other word order would have it
@@ -38,11 +38,11 @@ struct RegisterBlock {
 [[nodiscard]] CmmHeader decode_header(std::span<const std::uint16_t> registers, const CmmMap& map);
 
 /// Why the device cannot be read with this map: another version, word order or record size, an impossible ring.
-/// One phrase with the mend; empty = it can.
-[[nodiscard]] std::string check_header(const CmmHeader& header, const CmmMap& map);
+/// Failure `device`: one phrase with the fix.
+[[nodiscard]] Failure check_header(const CmmHeader& header, const CmmMap& map);
 
 /// Why a map contradicts itself (too many registers in the header or a record, fields that leave the record, a scale
-/// that is 0 or not finite). One phrase with the mend; empty = it does not.
-[[nodiscard]] std::string check_map(const CmmMap& map);
+/// that is 0 or not finite). bad_input: one phrase with the fix.
+[[nodiscard]] Failure check_map(const CmmMap& map);
 
 }  // namespace bladefit

@@ -14,38 +14,40 @@ namespace {
 constexpr const char* kAxes[3] = {"x", "y", "z"};
 
 /// The CRC comes first: in a damaged record no other field means anything.
-std::string check_identity(std::span<const std::uint16_t> registers, const CmmMap& map, std::uint32_t expected) {
+Failure check_identity(std::span<const std::uint16_t> registers, const CmmMap& map, std::uint32_t expected) {
   if (map.crc.present) {
     const std::uint16_t wanted = crc16(registers.first(map.crc.address));
     const std::uint16_t found = registers[map.crc.address];
-    if (wanted != found) return fmt::format("record {}: its CRC is {:04X}, not {:04X}", expected, found, wanted);
+    if (wanted != found)
+      return device_failure(fmt::format("record {}: its CRC is {:04X}, not {:04X}", expected, found, wanted));
   }
   const std::uint32_t sequence = decode_whole(registers, 0, map.sequence, map.word_order);
-  if (sequence != expected) return fmt::format("record {}: its place holds record {}", expected, sequence);
+  if (sequence != expected)
+    return device_failure(fmt::format("record {}: its place holds record {}", expected, sequence));
   if (!map.record_status.present) return {};
   const std::uint32_t status = decode_whole(registers, 0, map.record_status, map.word_order);
   if (status == map.record_good) return {};
-  return fmt::format("record {}: the device marks it as bad, status {}", expected, status);
+  return device_failure(fmt::format("record {}: the device marks it as bad, status {}", expected, status));
 }
 
 }  // namespace
 
-std::string decode_record(std::span<const std::uint16_t> registers, const CmmMap& map, std::uint32_t expected,
-                          ProbePoint& point) {
-  if (std::string error = check_identity(registers, map, expected); !error.empty()) return error;
+Failure decode_record(std::span<const std::uint16_t> registers, const CmmMap& map, std::uint32_t expected,
+                      ProbePoint& point) {
+  if (Failure error = check_identity(registers, map, expected)) return error;
   ProbePoint decoded;
   decoded.sequence = expected;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     decoded.position[axis] = decode_field(registers, 0, map.position[axis], map.word_order);
     if (!std::isfinite(decoded.position[axis]))
-      return fmt::format("record {}: {} is not a finite number", expected, kAxes[axis]);
+      return device_failure(fmt::format("record {}: {} is not a finite number", expected, kAxes[axis]));
     if (map.direction[axis].present)
       decoded.approach[axis] = decode_field(registers, 0, map.direction[axis], map.word_order);
   }
   if (!normalise_direction(decoded.approach)) {
-    return fmt::format(
-        "record {}: its direction has the length {:.6g}; correct the scale of i, j, k in the device file", expected,
-        length_of(decoded.approach));
+    return device_failure(
+        fmt::format("record {}: its direction has the length {:.6g}; correct the scale of i, j, k in the device file",
+                    expected, length_of(decoded.approach)));
   }
   if (map.path.present) decoded.path = static_cast<std::uint16_t>(decode_whole(registers, 0, map.path, map.word_order));
   point = decoded;

@@ -3,7 +3,7 @@
 
 #include "drivers/modbus/cmm_header.hpp"
 #include "drivers/modbus/modbus_frame.hpp"
-#include "drivers/source_settings.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
 
 namespace bladefit {
 

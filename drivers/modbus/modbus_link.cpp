@@ -39,8 +39,8 @@ LinkEvent ModbusLink::broken(std::string fault) {
   return LinkEvent::broken;
 }
 
-std::unique_ptr<ModbusLink> make_modbus_link(const SourceSettings& settings) {
-  if (settings.kind == SourceKind::modbus_tcp) return std::make_unique<TcpLink>(settings);
+std::unique_ptr<ModbusLink> make_modbus_link(const ModbusSettings& settings) {
+  if (settings.transport == ModbusTransport::tcp) return std::make_unique<TcpLink>(settings);
   return std::make_unique<RtuLink>(settings);
 }
 

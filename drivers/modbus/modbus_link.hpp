@@ -7,7 +7,8 @@
 #include <string>
 
 #include "drivers/modbus/modbus_frame.hpp"
-#include "drivers/source_settings.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -29,8 +30,8 @@ class ModbusLink {
 
   virtual ~ModbusLink() = default;
 
-  /// Checks what can be checked before connecting. Returns a phrase with the mend; empty = no error.
-  [[nodiscard]] virtual std::string prepare() = 0;
+  /// Checks what can be checked before connecting. A failure is a phrase with the fix.
+  [[nodiscard]] virtual Failure prepare() = 0;
 
   /// Begins to connect.
   virtual void start_connect() = 0;
@@ -51,7 +52,7 @@ class ModbusLink {
   /// Before this moment nothing may be sent.
   [[nodiscard]] Clock::time_point ready_at() const { return ready_at_; }
 
-  /// The newest fault, with the mend.
+  /// The newest fault, with the fix.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
   /// Something the user should know of an open link; empty = nothing.
@@ -76,7 +77,7 @@ class ModbusLink {
   std::string remark_;
 };
 
-/// Modbus TCP or RTU, as settings.kind says.
-[[nodiscard]] std::unique_ptr<ModbusLink> make_modbus_link(const SourceSettings& settings);
+/// Modbus TCP or RTU, as settings.transport says.
+[[nodiscard]] std::unique_ptr<ModbusLink> make_modbus_link(const ModbusSettings& settings);
 
 }  // namespace bladefit

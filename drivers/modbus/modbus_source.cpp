@@ -8,64 +8,59 @@
 #include "drivers/modbus/cmm_requests.hpp"
 #include "drivers/source/host_clock.hpp"
 #include "drivers/source/source_fault.hpp"
-#include "drivers/source_uri.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr int kOpenTransactions = 10;    ///< that many reply timeouts are granted to open()
-constexpr int kHeadersToOpen = 3;        ///< one to know the device by, two to see the run that the start has begun
-constexpr int kHeadersOfAnotherRun = 2;  ///< a header has no check sum
-constexpr int kHeaderTries = 3;          ///< a refused header may have been damaged on its way
-constexpr int kTimeoutsToLost = 3;       ///< missing replies in a row after which the link counts as lost
+constexpr int kOpenTransactions = 10;  ///< that many reply timeouts are granted to open()
 constexpr std::chrono::milliseconds kCloseTime{700};
 
 }  // namespace
 
-ModbusSource::ModbusSource(const SourceSettings& settings)
+ModbusSource::ModbusSource(const ModbusSettings& settings, std::string name)
     : settings_(settings),
-      name_(source_name(settings)),
-      ring_(settings_.modbus, status_),
+      name_(std::move(name)),
+      ring_(settings_, status_),
       link_(make_modbus_link(settings)),
-      back_off_(settings.modbus.reconnect_first, settings.modbus.reconnect_longest),
+      health_(settings.reconnect_first, settings.reconnect_longest),
+      schedule_(settings.poll_period),
       registers_(MODBUS_MAX_READ_REGISTERS) {}
 
 ModbusSource::~ModbusSource() = default;
 
-SourceError ModbusSource::open_error(const std::string& what) {
+/// A setting that does not fit counts as a fault of the device, too: one of the two is to be changed, and only who
+/// stands beside the machine knows which.
+Failure ModbusSource::open_error(const std::string& what) {
   link_->close();
   stage_ = Stage::down;
   opening_ = false;
-  return {fmt::format("{}: {}", name_, what)};
+  return device_failure(fmt::format("{}: {}", name_, what));
 }
 
-SourceError ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
+Failure ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
   status_ = {};
   ring_.restart(after);
-  stored_ = after;
-  sent_ = 0;
-  run_id_ = run_id;
+  acknowledgement_.restart(after, 0);
+  headers_.restart(run_id);
+  health_.restart();
   refusal_.clear();
-  header_refusals_ = foreign_headers_ = timeouts_ = headers_ = 0;
-  if (const std::string fault = check_map(settings_.modbus.map); !fault.empty()) return open_error(fault);
-  if (const std::string fault = link_->prepare(); !fault.empty()) return open_error(fault);
+  if (const Failure failure = check_map(settings_.map)) return open_error(failure.message);
+  if (const Failure failure = link_->prepare()) return open_error(failure.message);
   opening_ = true;
-  connected_ = false;
-  purpose_ = Purpose::none;
+  transaction_ = {};
   stage_ = Stage::connecting;
   link_->start_connect();
   const Clock::time_point deadline =
-      Clock::now() + settings_.modbus.connect_timeout + kOpenTransactions * settings_.modbus.reply_timeout;
-  while (stage_ != Stage::running || headers_ < kHeadersToOpen) {
-    step(Clock::now() + settings_.modbus.reply_timeout);
-    if (foreign_headers_ >= kHeadersOfAnotherRun) break;
-    const bool never_connected = stage_ == Stage::down && !connected_;
+      Clock::now() + settings_.connect_timeout + kOpenTransactions * settings_.reply_timeout;
+  while (stage_ != Stage::running || !headers_.enough_to_open()) {
+    step(Clock::now() + settings_.reply_timeout);
+    if (headers_.surely_foreign()) break;
+    const bool never_connected = stage_ == Stage::down && !health_.ever_made();
     if (never_connected || Clock::now() > deadline) return open_error(status_.last_fault);
     if (!refusal_.empty()) return open_error(refusal_);
-    if (timeouts_ >= kHeaderTries) {
-      return open_error(
-          fmt::format("unit {} does not answer; switch it on, or correct unit and the settings of the line",
-                      settings_.modbus.unit));
+    if (health_.seems_lost()) {
+      return open_error(fmt::format(
+          "unit {} does not answer; switch it on, or correct unit and the settings of the line", settings_.unit));
     }
   }
   opening_ = false;
@@ -76,7 +71,7 @@ std::size_t ModbusSource::poll(std::span<ProbePoint> points, std::chrono::millis
   return ring_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
 }
 
-void ModbusSource::acknowledge(std::uint32_t sequence) { stored_ = std::max(stored_, sequence); }
+void ModbusSource::acknowledge(std::uint32_t sequence) { acknowledgement_.store(sequence); }
 
 /// Goes on with whatever is under way. Returns as soon as something has changed, at `until` at the latest.
 void ModbusSource::step(Clock::time_point until) {
@@ -84,7 +79,7 @@ void ModbusSource::step(Clock::time_point until) {
     std::this_thread::sleep_until(until);
   } else if (!link_->is_open()) {
     reconnect(until);
-  } else if (purpose_ != Purpose::none) {
+  } else if (transaction_.purpose != Purpose::none) {
     finish_transaction(until);
   } else {
     begin_transaction(until);
@@ -93,8 +88,8 @@ void ModbusSource::step(Clock::time_point until) {
 
 void ModbusSource::reconnect(Clock::time_point until) {
   if (stage_ != Stage::connecting) {
-    if (Clock::now() < back_off_.retry_at()) {
-      std::this_thread::sleep_until(std::min(until, back_off_.retry_at()));
+    if (Clock::now() < health_.retry_at()) {
+      std::this_thread::sleep_until(std::min(until, health_.retry_at()));
       return;
     }
     stage_ = Stage::connecting;
@@ -103,32 +98,31 @@ void ModbusSource::reconnect(Clock::time_point until) {
   const LinkEvent event = link_->connect(until);
   if (event == LinkEvent::broken) link_lost(link_->fault());
   if (event != LinkEvent::done) return;
-  if (connected_) ++status_.reconnects;
-  connected_ = true;
+  if (health_.make()) ++status_.reconnects;
   if (!link_->remark().empty()) status_.last_fault = link_->remark();
   stage_ = Stage::identify;
-  header_refusals_ = timeouts_ = 0;
-  next_header_ = next_read_ = next_write_ = link_->ready_at();
+  headers_.link_made();
+  schedule_.restart(link_->ready_at());
 }
 
 void ModbusSource::begin_transaction(Clock::time_point until) {
   const Clock::time_point now = Clock::now();
   if (now < link_->ready_at()) return std::this_thread::sleep_until(std::min(until, link_->ready_at()));
-  if (now >= next_write_ && !read_first_ && begin_write()) return;
+  if (schedule_.may_write(now) && begin_write()) return;
   begin_read(now, until);
 }
 
 /// The acknowledge, or the command after it. Returns false where there is nothing to be written.
 bool ModbusSource::begin_write() {
-  if (foreign_headers_ > 0) return false;
-  const CmmMap& map = settings_.modbus.map;
-  if (stage_ == Stage::announce || (stage_ == Stage::running && stored_ != sent_)) {
-    sending_ = stored_;
+  if (headers_.foreign()) return false;
+  const CmmMap& map = settings_.map;
+  if (stage_ == Stage::announce || (stage_ == Stage::running && acknowledgement_.is_due())) {
+    const std::uint32_t sequence = acknowledgement_.send();
     if (map.acknowledge.present) {
-      begin(Purpose::acknowledge, write_request(map, map.acknowledge, sending_));
+      begin(Purpose::acknowledge, write_request(map, map.acknowledge, sequence));
       return true;
     }
-    sent_ = sending_;
+    acknowledgement_.confirm();
     if (stage_ == Stage::announce) stage_ = Stage::command;
   }
   if (stage_ == Stage::command) {
@@ -143,26 +137,25 @@ bool ModbusSource::begin_write() {
 
 /// The header when it is due, records otherwise. On a slow line the header is always due: records come after it.
 void ModbusSource::begin_read(Clock::time_point now, Clock::time_point until) {
-  const CmmMap& map = settings_.modbus.map;
+  const CmmMap& map = settings_.map;
   // While open() waits for the start, the ring may hold an earlier run. Later a refused write keeps no record back.
   const bool wanted = stage_ == Stage::running || (!opening_ && stage_ != Stage::identify);
-  const bool allowed = now >= next_read_;
-  batch_ = wanted && allowed ? ring_.next_batch() : RecordBatch{};
-  header_last_ = allowed && now >= next_header_ && (batch_.count == 0 || !header_last_);
-  if (header_last_) {
+  const RecordBatch batch = wanted && schedule_.may_read(now) ? ring_.next_batch() : RecordBatch{};
+  if (schedule_.take_header_turn(now, batch.count > 0)) {
     const RegisterBlock block = header_block(map);
     begin(Purpose::header, read_request(map, block.first, block.count));
-  } else if (batch_.count > 0) {
-    const auto registers = static_cast<std::uint16_t>(batch_.count * map.record_size);
-    begin(Purpose::records, read_request(map, batch_.address, registers));
+  } else if (batch.count > 0) {
+    transaction_.batch = batch;
+    const auto registers = static_cast<std::uint16_t>(batch.count * map.record_size);
+    begin(Purpose::records, read_request(map, batch.address, registers));
   } else {
-    return std::this_thread::sleep_until(std::min(until, std::max(next_header_, next_read_)));
+    return std::this_thread::sleep_until(std::min(until, schedule_.next_turn()));
   }
-  read_first_ = false;
+  schedule_.reading();
 }
 
 void ModbusSource::begin(Purpose purpose, const ModbusRequest& request) {
-  purpose_ = purpose;
+  transaction_.purpose = purpose;
   if (link_->send(request) == LinkEvent::broken) link_lost(link_->fault());
 }
 
@@ -173,8 +166,8 @@ void ModbusSource::finish_transaction(Clock::time_point until) {
 }
 
 void ModbusSource::transaction_done() {
-  timeouts_ = 0;
-  const Purpose purpose = std::exchange(purpose_, Purpose::none);
+  health_.reply_came();
+  const Purpose purpose = std::exchange(transaction_.purpose, Purpose::none);
   // A device that was silent for long may have been switched off and on: it is greeted like a new one.
   if (status_.link == LinkState::lost && stage_ == Stage::running) stage_ = Stage::identify;
   switch (purpose) {
@@ -187,112 +180,110 @@ void ModbusSource::transaction_done() {
       records_read();
       break;
     case Purpose::acknowledge:
-      sent_ = sending_;
+      acknowledgement_.confirm();
       if (stage_ == Stage::announce) stage_ = Stage::command;
       break;
     case Purpose::command:
       if (stage_ == Stage::command) stage_ = Stage::running;
-      next_header_ = Clock::now() + settings_.modbus.poll_period;
+      schedule_.delay_header(Clock::now());
       break;
   }
 }
 
 void ModbusSource::header_read() {
-  next_header_ = Clock::now() + settings_.modbus.poll_period;
-  const CmmHeader header = decode_header(registers_, settings_.modbus.map);
-  const std::string refusal = check_header(header, settings_.modbus.map);
-  if (refusal.empty()) return header_accepted(header);
+  schedule_.delay_header(Clock::now());
+  const CmmHeader header = decode_header(registers_, settings_.map);
+  const Failure failure = check_header(header, settings_.map);
+  if (!failure) return header_accepted(header);
   ++status_.damaged;
-  note_fault(status_, refusal);
-  if (++header_refusals_ >= kHeaderTries && opening_) refusal_ = refusal;
+  note_fault(status_, failure.message);
+  if (headers_.refuse() && opening_) refusal_ = failure.message;
 }
 
 void ModbusSource::header_accepted(const CmmHeader& header) {
-  header_refusals_ = 0;
-  // Those read while the device refuses the start cannot tell of the run that it begins.
-  if (stage_ == Stage::identify || stage_ == Stage::running) headers_ = std::min(headers_ + 1, kHeadersToOpen);
   note_good(status_);
-  const bool nothing_taken = ring_.next() == 1;
-  foreign_headers_ = foreign(header) ? foreign_headers_ + 1 : 0;
-  if (stage_ != Stage::running && foreign_headers_ == 0) identify(header);
+  const bool records_taken = ring_.next() > 1;
+  // Those read while the device refuses the start cannot show the run that it begins.
+  headers_.accept(header.run_id, records_taken, stage_ == Stage::identify || stage_ == Stage::running);
+  if (stage_ != Stage::running && !headers_.foreign()) identify(header);
   ring_.observe(header);
-  if (nothing_taken) run_id_ = status_.run_id;
+  if (!records_taken) headers_.adopt(status_.run_id);
 }
 
-/// Of another run than the records taken so far: it must not be told that any of its own are stored. A device without
-/// run ids always tells 0.
-bool ModbusSource::foreign(const CmmHeader& header) const { return ring_.next() > 1 && header.run_id != run_id_; }
-
-/// A good header before the device has taken its command: each decides anew which one that is.
+/// A good header before the device has taken its command: each decides again which one that is.
 void ModbusSource::identify(const CmmHeader& header) {
-  next_command_ = command_for(settings_.modbus.map, header, ring_.next(), opening_);
+  next_command_ = command_for(settings_.map, header, ring_.next(), opening_);
   status_.link = LinkState::up;
   if (stage_ == Stage::identify) stage_ = Stage::announce;
-  back_off_.succeeded();
+  health_.recognise();
 }
 
 void ModbusSource::records_read() {
-  const std::size_t size = std::size_t{batch_.count} * settings_.modbus.map.record_size;
-  const bool good = ring_.accept(batch_, std::span(registers_).first(size), host_time_us());
-  // A bad record is looked at again after the header has told whether it still stands in the ring.
-  if (!good) next_header_ = std::min(next_header_, Clock::now());
+  const std::size_t size = std::size_t{transaction_.batch.count} * settings_.map.record_size;
+  const bool good = ring_.accept(transaction_.batch, std::span(registers_).first(size), host_time_us());
+  // A bad record is read again once the header has shown whether it still stands in the ring.
+  if (!good) schedule_.hasten_header(Clock::now());
 }
 
 void ModbusSource::transaction_failed(LinkEvent event) {
   if (event == LinkEvent::broken) return link_lost(link_->fault());
-  const Purpose purpose = std::exchange(purpose_, Purpose::none);
+  const Purpose purpose = std::exchange(transaction_.purpose, Purpose::none);
   note_fault(status_, link_->fault());
   if (event == LinkEvent::damaged) ++status_.damaged;
   if (event == LinkEvent::refused || event == LinkEvent::busy) return request_refused(purpose, event);
   if (event != LinkEvent::timeout) return;
-  ++timeouts_;
+  health_.reply_missing();
   ++status_.resends;
-  if (timeouts_ >= kTimeoutsToLost) status_.link = LinkState::lost;
-  // A serial port stays open for a silent device. A TCP connection may be dead without telling.
-  if (settings_.kind == SourceKind::modbus_tcp && timeouts_ >= settings_.modbus.timeouts_to_reconnect) {
+  if (health_.seems_lost()) status_.link = LinkState::lost;
+  // A serial port stays open for a silent device. A TCP connection may be dead without a sign.
+  if (settings_.transport == ModbusTransport::tcp && health_.timeouts() >= settings_.timeouts_to_reconnect) {
     link_->close();
     link_lost(link_->fault());
   }
 }
 
-/// What was refused is asked again, a poll period later: a refused write must not keep from reading, nor the reverse.
+/// What was refused is asked again, a poll period later.
 void ModbusSource::request_refused(Purpose purpose, LinkEvent event) {
-  read_first_ = purpose == Purpose::acknowledge || purpose == Purpose::command;
-  Clock::time_point& next = read_first_ ? next_write_ : next_read_;
-  next = Clock::now() + settings_.modbus.poll_period;
+  if (purpose == Purpose::acknowledge || purpose == Purpose::command) {
+    schedule_.write_refused(Clock::now());
+  } else {
+    schedule_.read_refused(Clock::now());
+  }
   if (opening_ && event == LinkEvent::refused) {
     refusal_ = link_->fault() + "; correct the addresses, or lower batch, in the device file";
   }
 }
 
 void ModbusSource::link_lost(const std::string& fault) {
-  purpose_ = Purpose::none;
+  transaction_.purpose = Purpose::none;
   stage_ = Stage::down;
   status_.link = LinkState::lost;
   note_fault(status_, fault);
-  back_off_.failed(Clock::now());
+  health_.fail(Clock::now());
 }
 
 /// Writes once and waits for the reply until `until`.
 bool ModbusSource::write_now(const NumberField& field, std::uint32_t value, Clock::time_point until) {
   if (!field.present || !link_->is_open()) return false;
   std::this_thread::sleep_until(std::min(until, link_->ready_at()));
-  if (link_->send(write_request(settings_.modbus.map, field, value)) != LinkEvent::done) return false;
+  if (link_->send(write_request(settings_.map, field, value)) != LinkEvent::done) return false;
   return link_->receive(registers_, until) == LinkEvent::done;
 }
 
 void ModbusSource::close() {
   const Clock::time_point until = Clock::now() + kCloseTime;
-  if (link_->is_open() && purpose_ != Purpose::none) finish_transaction(until);
-  const CmmMap& map = settings_.modbus.map;
-  const bool talks = link_->is_open() && status_.link == LinkState::up && foreign_headers_ == 0;
-  if (talks && stored_ != sent_ && write_now(map.acknowledge, stored_, until)) sent_ = stored_;
+  if (link_->is_open() && transaction_.purpose != Purpose::none) finish_transaction(until);
+  const CmmMap& map = settings_.map;
+  const bool talks = link_->is_open() && status_.link == LinkState::up && !headers_.foreign();
+  if (talks && acknowledgement_.is_due() && write_now(map.acknowledge, acknowledgement_.send(), until)) {
+    acknowledgement_.confirm();
+  }
   if (talks && !write_now(map.command, map.command_stop, until) && map.command.present) {
     note_fault(status_, "the device did not confirm the stop; stop it at its own screen");
   }
   link_->close();
   stage_ = Stage::down;
-  purpose_ = Purpose::none;
+  transaction_.purpose = Purpose::none;
 }
 
 }  // namespace bladefit

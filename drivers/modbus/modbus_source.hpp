@@ -3,23 +3,26 @@
 #include <string>
 #include <vector>
 
+#include "drivers/modbus/header_watch.hpp"
+#include "drivers/modbus/link_health.hpp"
 #include "drivers/modbus/modbus_link.hpp"
+#include "drivers/modbus/request_schedule.hpp"
 #include "drivers/modbus/ring_reader.hpp"
-#include "drivers/source/back_off.hpp"
+#include "drivers/source/acknowledgement.hpp"
 #include "drivers/source/probe_source.hpp"
 
 namespace bladefit {
 
 /// A CMM whose points stand in a ring of Modbus registers. A state machine: every poll() goes on with the transaction
-/// that is under way or begins the next one, so that it returns in time whatever the device does; it may stay longer by
-/// the wire time of one reply whose first byte has come.
+/// that is under way or begins the next one, so that it returns in time whatever the device does; it may overrun by the
+/// transmission time of a reply that is being received.
 class ModbusSource final : public ProbeSource {
  public:
-  explicit ModbusSource(const SourceSettings& settings);
+  ModbusSource(const ModbusSettings& settings, std::string name);
   ~ModbusSource() override;
 
   /// Takes at most about the connect timeout and ten reply timeouts. A link that breaks meanwhile is made again.
-  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
+  [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t sequence) override;
   void close() override;
@@ -44,41 +47,35 @@ class ModbusSource final : public ProbeSource {
   void transaction_done();
   void header_read();
   void header_accepted(const CmmHeader& header);
-  [[nodiscard]] bool foreign(const CmmHeader& header) const;
   void identify(const CmmHeader& header);
   void records_read();
   void transaction_failed(LinkEvent event);
   void request_refused(Purpose purpose, LinkEvent event);
   void link_lost(const std::string& fault);
-  [[nodiscard]] SourceError open_error(const std::string& what);
+  [[nodiscard]] Failure open_error(const std::string& what);
   [[nodiscard]] bool write_now(const NumberField& field, std::uint32_t value, Clock::time_point until);
 
-  const SourceSettings settings_;
+  /// The transaction under way.
+  struct Transaction {
+    Purpose purpose = Purpose::none;
+    RecordBatch batch;  ///< of purpose records
+  };
+
+  const ModbusSettings settings_;
   const std::string name_;
   SourceStatus status_;
   RingReader ring_;
   std::unique_ptr<ModbusLink> link_;
-  BackOff back_off_;
+  LinkHealth health_;
+  HeaderWatch headers_;
+  RequestSchedule schedule_;
+  Acknowledgement acknowledgement_;
   Stage stage_ = Stage::down;
-  Purpose purpose_ = Purpose::none;
-  RecordBatch batch_;
-  std::vector<std::uint16_t> registers_;
-  std::uint32_t stored_ = 0;        ///< last sequence that the host has stored
-  std::uint32_t sent_ = 0;          ///< last sequence that the device knows to be stored
-  std::uint32_t sending_ = 0;       ///< of the acknowledge under way
-  std::uint16_t next_command_ = 0;  ///< to be given when the acknowledge is through; 0 = none
+  Transaction transaction_;
+  std::vector<std::uint16_t> registers_;  ///< that the last reply brought
+  std::uint16_t next_command_ = 0;        ///< to be given when the acknowledge is through; 0 = none
   bool opening_ = false;
-  bool connected_ = false;    ///< a link was made since open()
-  int headers_ = 0;           ///< good ones since open(), as far as open() counts them
-  std::uint32_t run_id_ = 0;  ///< of the records that were taken; what the device tells where none were
-  int foreign_headers_ = 0;   ///< headers in a row of another run
-  int header_refusals_ = 0;   ///< headers in a row that check_header() refused
-  int timeouts_ = 0;          ///< in a row
-  std::string refusal_;       ///< why the device cannot be read; empty = it can
-  Clock::time_point next_header_{};
-  Clock::time_point next_read_{}, next_write_{};  ///< a refused request of the kind waits until then
-  bool read_first_ = false;   ///< a refused write also waits for a read: on a slow line the time has passed at once
-  bool header_last_ = false;  ///< the header has had its turn: now records have theirs
+  std::string refusal_;  ///< why the device cannot be read; empty = it can
 };
 
 }  // namespace bladefit

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <span>
 
-#include "drivers/source_settings.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
 
 namespace bladefit {
 

@@ -38,12 +38,12 @@ void RingReader::observe(const CmmHeader& header) {
   if (fault && !status_.device_fault) note_fault(status_, "the device reports a fault; see its own screen");
   status_.device_fault = fault;
   note_losses(header);
-  mend_overshoot(header);
+  take_back_overshoot(header);
   note_finish(header);
 }
 
 /// Records were given up because headers named newer ones, which later headers know nothing of: the former were wrong.
-void RingReader::mend_overshoot(const CmmHeader& header) {
+void RingReader::take_back_overshoot(const CmmHeader& header) {
   const bool overshot = next_ > taken_ + 1 && header.newest + 1 < next_;
   overshoots_seen_ = overshot ? overshoots_seen_ + 1 : 0;
   if (overshoots_seen_ < kHeadersForOvershoot) return;
@@ -79,13 +79,13 @@ void RingReader::note_losses(const CmmHeader& header) {
   skip_to(header.newest - header.capacity + 1, "overwritten in the device before they were read");
 }
 
-/// The bit may stay set for long after a loss; it tells of another one only after it was cleared.
-void RingReader::note_overflow(bool told) {
-  overflow_changes_seen_ = told != overflow_ ? overflow_changes_seen_ + 1 : 0;
+/// The bit may stay set for long after a loss; it means another one only after it was cleared.
+void RingReader::note_overflow(bool reported) {
+  overflow_changes_seen_ = reported != overflow_ ? overflow_changes_seen_ + 1 : 0;
   if (overflow_changes_seen_ < kHeadersForLoss) return;
   overflow_changes_seen_ = 0;
-  overflow_ = told;
-  if (!told) return;
+  overflow_ = reported;
+  if (!reported) return;
   note_loss(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
 }
 
@@ -109,9 +109,8 @@ bool RingReader::accept(const RecordBatch& batch, std::span<const std::uint16_t>
   for (std::uint16_t index = 0; index < batch.count; ++index) {
     const std::size_t size = settings_.map.record_size;
     ProbePoint point;
-    const std::string fault = decode_record(registers.subspan(index * size, size), settings_.map, next_, point);
-    if (!fault.empty()) {
-      damaged(fault);
+    if (const Failure failure = decode_record(registers.subspan(index * size, size), settings_.map, next_, point)) {
+      damaged(failure.message);
       return false;
     }
     point.time_us = time_us;

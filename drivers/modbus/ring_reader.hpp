@@ -4,9 +4,9 @@
 #include <span>
 
 #include "drivers/modbus/cmm_header.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
 #include "drivers/source/point_queue.hpp"
 #include "drivers/source/probe_source.hpp"
-#include "drivers/source_settings.hpp"
 
 namespace bladefit {
 
@@ -49,9 +49,9 @@ class RingReader {
  private:
   [[nodiscard]] bool adopt_identity(const CmmHeader& header);
   void note_losses(const CmmHeader& header);
-  void note_overflow(bool told);
+  void note_overflow(bool reported);
   void note_finish(const CmmHeader& header);
-  void mend_overshoot(const CmmHeader& header);
+  void take_back_overshoot(const CmmHeader& header);
   void damaged(const std::string& fault);
   void skip_to(std::uint32_t sequence, const std::string& why);
 
@@ -64,7 +64,7 @@ class RingReader {
   std::uint32_t taken_ = 0;  ///< last record that was good
   int tries_ = 0;            ///< how often the record next_ was found damaged
   int losses_seen_ = 0, overflow_changes_seen_ = 0, finishes_seen_ = 0, overshoots_seen_ = 0;
-  bool overflow_ = false;  ///< the overflow bit is set, as headers in a row have told
+  bool overflow_ = false;  ///< the overflow bit is set, as headers in a row say
   bool stopped_ = false;
 };
 

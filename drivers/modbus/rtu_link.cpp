@@ -45,13 +45,15 @@ std::chrono::microseconds wire_time(std::size_t bytes, const SerialLineSettings&
   return std::chrono::microseconds(static_cast<std::int64_t>(bytes) * bits * 1'000'000 / line.baud + 1);
 }
 
-std::string RtuLink::prepare() {
+Failure RtuLink::prepare() {
   if (!speed_code(settings_.line.baud)) {
-    return fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings_.line.baud);
+    return bad_input(
+        fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings_.line.baud));
   }
-  const ModbusSettings& modbus = settings_.modbus;
+  const ModbusSettings& modbus = settings_;
   if (modbus.unit < 1 || modbus.unit > kLargestUnit) {
-    return fmt::format("unit {} is no address on a serial line; set unit to 1..{}", modbus.unit, kLargestUnit);
+    return bad_input(
+        fmt::format("unit {} is no address on a serial line; set unit to 1..{}", modbus.unit, kLargestUnit));
   }
   ModbusRequest longest;
   const int records = modbus.batch * modbus.map.record_size;
@@ -60,20 +62,20 @@ std::string RtuLink::prepare() {
   const auto least = wire_time(kRequestSize + reply_size(longest) + kEnvelopeSize, settings_.line);
   if (modbus.reply_timeout >= least) return {};
   const auto least_ms = std::chrono::ceil<std::chrono::milliseconds>(least).count();
-  return fmt::format(
-      "a reply timeout of {} ms is too short: request and reply take {} ms at {} baud; set "
-      "reply_timeout_ms to {} or more, or batch to fewer records",
-      modbus.reply_timeout.count(), least_ms, settings_.line.baud, 2 * least_ms);
+  return bad_input(
+      fmt::format("a reply timeout of {} ms is too short: request and reply take {} ms at {} baud; set "
+                  "reply_timeout_ms to {} or more, or batch to fewer records",
+                  modbus.reply_timeout.count(), least_ms, settings_.line.baud, 2 * least_ms));
 }
 
 LinkEvent RtuLink::connect(Clock::time_point) {
   close();
-  if (std::string fault = guard_.lock(settings_.line.device); !fault.empty()) return broken(std::move(fault));
+  if (Failure failure = guard_.lock(settings_.line.device)) return broken(std::move(failure.message));
   const SerialLineSettings& line = settings_.line;
   context_.reset(
       modbus_new_rtu(line.device.c_str(), line.baud, parity_letter(line.parity), line.data_bits, line.stop_bits));
   if (!context_) return broken(fmt::format("{}; correct the settings of the line", modbus_strerror(errno)));
-  modbus_set_slave(context_.get(), settings_.modbus.unit);
+  modbus_set_slave(context_.get(), settings_.unit);
   if (modbus_connect(context_.get()) != 0) return broken(port_error_text(errno));
   guard_.shut_out_others();
   remark_ = line.low_latency ? guard_.ask_low_latency() : std::string{};
@@ -101,18 +103,18 @@ LinkEvent RtuLink::send(const ModbusRequest& request) {
   request_ = request;
   if (const LinkEvent event = drain(); event != LinkEvent::done) return event;
   const ModbusPdu pdu = encode_request(request);
-  sent_[0] = static_cast<std::uint8_t>(settings_.modbus.unit);
+  sent_[0] = static_cast<std::uint8_t>(settings_.unit);
   std::copy(pdu.view().begin(), pdu.view().end(), sent_.begin() + 1);
   const auto size = static_cast<int>(pdu.size + 1);
   const int sent = modbus_send_raw_request(context_.get(), sent_.data(), size);
-  deadline_ = Clock::now() + settings_.modbus.reply_timeout;
+  deadline_ = Clock::now() + settings_.reply_timeout;
   if (sent < 0) return broken(port_error_text(errno));
   if (sent != size + 2) return broken("the port takes no more bytes; check the cable");
   const std::uint16_t crc = crc16({reinterpret_cast<const char*>(sent_.data()), pdu.size + 1});
   sent_[pdu.size + 1] = static_cast<std::uint8_t>(crc & 0xFFU);
   sent_[pdu.size + 2] = static_cast<std::uint8_t>(crc >> 8U);
   sent_size_ = pdu.size + 3;
-  echo_size_ = settings_.modbus.echo ? sent_size_ : 0;
+  echo_size_ = settings_.echo ? sent_size_ : 0;
   return LinkEvent::done;
 }
 
@@ -133,8 +135,8 @@ LinkEvent RtuLink::read_echo() {
 }
 
 LinkEvent RtuLink::quiet_after(LinkEvent event) {
-  ready_at_ = Clock::now() + (event == LinkEvent::done ? frame_pause(settings_.line)
-                                                       : std::chrono::microseconds(settings_.modbus.quiet));
+  ready_at_ = Clock::now() +
+              (event == LinkEvent::done ? frame_pause(settings_.line) : std::chrono::microseconds(settings_.quiet));
   return event;
 }
 
@@ -144,8 +146,7 @@ LinkEvent RtuLink::receive(std::span<std::uint16_t> registers, Clock::time_point
     if (readiness == Readiness::hang_up) return broken("the port has hung up; check the cable");
     if (readiness == Readiness::timeout && Clock::now() < deadline_) return LinkEvent::pending;
     if (readiness == Readiness::timeout) {
-      fault_ = fmt::format("no reply from unit {} within {} ms", settings_.modbus.unit,
-                           settings_.modbus.reply_timeout.count());
+      fault_ = fmt::format("no reply from unit {} within {} ms", settings_.unit, settings_.reply_timeout.count());
       return quiet_after(LinkEvent::timeout);
     }
     if (echo_size_ > 0) {
@@ -158,7 +159,7 @@ LinkEvent RtuLink::receive(std::span<std::uint16_t> registers, Clock::time_point
     if (event == LinkEvent::broken) return event;
     if (event != LinkEvent::done) return quiet_after(event);
     // libmodbus returns 0 for a frame of another unit: it is skipped and waiting goes on.
-    if (size <= kEnvelopeSize || frame[0] != settings_.modbus.unit) continue;
+    if (size <= kEnvelopeSize || frame[0] != settings_.unit) continue;
     const std::span<const std::uint8_t> pdu(frame.data() + 1, size - kEnvelopeSize);
     switch (match_reply(pdu, request_, registers, fault_)) {
       case ReplyKind::good:

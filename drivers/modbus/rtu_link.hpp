@@ -8,10 +8,10 @@ namespace bladefit {
 /// and drained, and frames that do not fit the request are skipped.
 class RtuLink final : public ModbusLink {
  public:
-  explicit RtuLink(const SourceSettings& settings) : settings_(settings) {}
+  explicit RtuLink(const ModbusSettings& settings) : settings_(settings) {}
   ~RtuLink() override { close(); }
 
-  [[nodiscard]] std::string prepare() override;
+  [[nodiscard]] Failure prepare() override;
   void start_connect() override {}
   [[nodiscard]] LinkEvent connect(Clock::time_point until) override;
   [[nodiscard]] bool is_open() const override { return context_ != nullptr; }
@@ -24,7 +24,7 @@ class RtuLink final : public ModbusLink {
   [[nodiscard]] LinkEvent read_echo();
   [[nodiscard]] LinkEvent quiet_after(LinkEvent event);
 
-  const SourceSettings settings_;
+  const ModbusSettings settings_;
   PortGuard guard_;
   std::array<std::uint8_t, MODBUS_MAX_ADU_LENGTH> sent_{};
   std::size_t echo_size_ = 0;  ///< bytes of the echo still to come

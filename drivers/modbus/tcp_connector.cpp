@@ -29,13 +29,14 @@ std::string connect_error_text(int error) {
 
 }  // namespace
 
-std::string TcpConnector::resolve(const TcpSettings& settings) {
+Failure TcpConnector::resolve(const TcpSettings& settings) {
   addrinfo hints{};
   hints.ai_family = AF_UNSPEC;
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* list = nullptr;
   const int code = ::getaddrinfo(settings.host.c_str(), std::to_string(settings.port).c_str(), &hints, &list);
-  if (code != 0) return fmt::format("the host is not known ({}); correct its name or address", ::gai_strerror(code));
+  if (code != 0)
+    return device_failure(fmt::format("the host is not known ({}); correct its name or address", ::gai_strerror(code)));
   addresses_.clear();
   for (const addrinfo* entry = list; entry != nullptr; entry = entry->ai_next) {
     Address address;

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/source_settings.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -20,8 +21,8 @@ class TcpConnector {
   TcpConnector& operator=(const TcpConnector&) = delete;
   ~TcpConnector() { stop(); }
 
-  /// Looks the host up; this may block as long as the resolver does. Returns a phrase with the mend; empty = found.
-  [[nodiscard]] std::string resolve(const TcpSettings& settings);
+  /// Looks the host up; this may block as long as the resolver does. `device`: a phrase with the fix.
+  [[nodiscard]] Failure resolve(const TcpSettings& settings);
 
   /// Begins with the first address. All of them together must answer by `deadline`.
   void start(Clock::time_point deadline);
@@ -32,7 +33,7 @@ class TcpConnector {
   /// Hands over the connected socket (not blocking, without delay); the caller closes it.
   [[nodiscard]] int release();
 
-  /// Why it failed, with the mend.
+  /// Why it failed, with the fix.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
   void stop();

@@ -12,7 +12,7 @@ namespace bladefit {
 
 void TcpLink::start_connect() {
   close();
-  connector_.start(Clock::now() + settings_.modbus.connect_timeout);
+  connector_.start(Clock::now() + settings_.connect_timeout);
 }
 
 LinkEvent TcpLink::connect(Clock::time_point until) {
@@ -36,13 +36,13 @@ LinkEvent TcpLink::send(const ModbusRequest& request) {
   request_ = request;
   ++transaction_;
   const ModbusPdu pdu = encode_request(request);
-  const auto header = tcp_header(transaction_, static_cast<std::uint8_t>(settings_.modbus.unit), pdu.size);
+  const auto header = tcp_header(transaction_, static_cast<std::uint8_t>(settings_.unit), pdu.size);
   std::array<std::uint8_t, MODBUS_MAX_ADU_LENGTH> frame{};
   std::copy(header.begin(), header.end(), frame.begin());
   std::copy(pdu.view().begin(), pdu.view().end(), frame.begin() + kTcpHeaderSize);
   const std::size_t size = kTcpHeaderSize + pdu.size;
   const ssize_t sent = ::send(modbus_get_socket(context_.get()), frame.data(), size, MSG_NOSIGNAL | MSG_DONTWAIT);
-  deadline_ = Clock::now() + settings_.modbus.reply_timeout;
+  deadline_ = Clock::now() + settings_.reply_timeout;
   if (sent == static_cast<ssize_t>(size)) return LinkEvent::done;
   return broken(sent < 0 ? std::strerror(errno) : "the device takes no more bytes");
 }
@@ -53,7 +53,7 @@ LinkEvent TcpLink::receive(std::span<std::uint16_t> registers, Clock::time_point
     if (readiness == Readiness::hang_up) return broken("the device has closed the connection");
     if (readiness == Readiness::timeout && Clock::now() < deadline_) return LinkEvent::pending;
     if (readiness == Readiness::timeout) {
-      fault_ = fmt::format("no reply within {} ms", settings_.modbus.reply_timeout.count());
+      fault_ = fmt::format("no reply within {} ms", settings_.reply_timeout.count());
       return LinkEvent::timeout;
     }
     std::array<std::uint8_t, MODBUS_MAX_ADU_LENGTH> frame{};
@@ -62,11 +62,11 @@ LinkEvent TcpLink::receive(std::span<std::uint16_t> registers, Clock::time_point
     if (event == LinkEvent::broken) return event;
     // A part of a frame, or a length that contradicts itself, leaves the stream without a place to go on reading.
     if (event != LinkEvent::done) return broken(fmt::format("half a reply: {}", fault_));
-    const std::size_t told = static_cast<std::size_t>((frame[4] << 8U) | frame[5]) + kTcpHeaderSize - 1;
-    if (size <= kTcpHeaderSize || told != size || frame[2] != 0 || frame[3] != 0)
+    const std::size_t given = static_cast<std::size_t>((frame[4] << 8U) | frame[5]) + kTcpHeaderSize - 1;
+    if (size <= kTcpHeaderSize || given != size || frame[2] != 0 || frame[3] != 0)
       return broken("a reply of a wrong length");
     const auto transaction = static_cast<std::uint16_t>((frame[0] << 8U) | frame[1]);
-    if (transaction != transaction_ || frame[6] != settings_.modbus.unit) continue;
+    if (transaction != transaction_ || frame[6] != settings_.unit) continue;
     const std::span<const std::uint8_t> pdu(frame.data() + kTcpHeaderSize, size - kTcpHeaderSize);
     switch (match_reply(pdu, request_, registers, fault_)) {
       case ReplyKind::good:

@@ -7,10 +7,10 @@ namespace bladefit {
 /// Modbus TCP. Every reply carries the number of its transaction, so that late ones are told apart and skipped.
 class TcpLink final : public ModbusLink {
  public:
-  explicit TcpLink(const SourceSettings& settings) : settings_(settings) {}
+  explicit TcpLink(const ModbusSettings& settings) : settings_(settings) {}
   ~TcpLink() override { close(); }
 
-  [[nodiscard]] std::string prepare() override { return connector_.resolve(settings_.tcp); }
+  [[nodiscard]] Failure prepare() override { return connector_.resolve(settings_.tcp); }
   void start_connect() override;
   [[nodiscard]] LinkEvent connect(Clock::time_point until) override;
   [[nodiscard]] bool is_open() const override { return context_ != nullptr; }
@@ -19,7 +19,7 @@ class TcpLink final : public ModbusLink {
   void close() override;
 
  private:
-  const SourceSettings settings_;
+  const ModbusSettings settings_;
   TcpConnector connector_;
   std::uint16_t transaction_ = 0;
 };

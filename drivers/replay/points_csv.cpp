@@ -17,60 +17,59 @@ namespace {
 constexpr std::array<std::string_view, 8> kColumns = {"x", "y", "z", "i", "j", "k", "path", "weight"};
 constexpr std::size_t kPathColumn = 6, kWeightColumn = 7;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 30U;
-constexpr std::string_view kHeaderMend = "the first line must name the columns: x,y,z[,i,j,k][,path][,weight]";
+constexpr std::string_view kHeaderFix = "the first line must name the columns: x,y,z[,i,j,k][,path][,weight]";
 
-constexpr CsvFormat kFormat{kColumns, 3, kPathColumn, kHeaderMend};
+constexpr CsvFormat kFormat{kColumns, 3, kPathColumn, kHeaderFix};
 
-std::string parse_path(const CsvPlace& place, std::string_view cell, ProbePoint& point) {
+Failure parse_path(const CsvPlace& place, std::string_view cell, ProbePoint& point) {
   const std::optional<std::uint16_t> path = parse_whole<std::uint16_t>(cell);
-  if (!path) return place.say(fmt::format("column path: {} is not a whole number 0..65535", quoted(cell)));
+  if (!path) return bad_input(place.say(fmt::format("column path: {} is not a whole number 0..65535", quoted(cell))));
   point.path = *path;
   return {};
 }
 
-std::string parse_weight(const CsvPlace& place, std::string_view cell, ProbePoint& point) {
+Failure parse_weight(const CsvPlace& place, std::string_view cell, ProbePoint& point) {
   const std::optional<double> weight = parse_finite(cell);
   if (!weight || !(*weight > 0.0)) {
-    return place.say(
-        fmt::format("column weight: {} is not a number above 0; leave points out by --subset", quoted(cell)));
+    return bad_input(place.say(
+        fmt::format("column weight: {} is not a number above 0; leave points out by --subset", quoted(cell))));
   }
   point.weight = *weight;
   return {};
 }
 
-std::string parse_coordinate(const CsvRow& row, std::size_t cell, double mm_per_unit, ProbePoint& point) {
-  std::string error;
-  const std::optional<double> value = finite_cell(row, cell, kFormat, error);
-  if (!value) return error;
+Failure parse_coordinate(const CsvRow& row, std::size_t cell, double mm_per_unit, ProbePoint& point) {
+  double value = 0;
+  if (Failure failure = finite_cell(row, cell, kFormat, value)) return failure;
   const std::size_t column = row.columns[cell];
   if (column >= 3) {
-    point.approach[column - 3] = *value;
+    point.approach[column - 3] = value;
     return {};
   }
-  point.position[column] = *value * mm_per_unit;
+  point.position[column] = value * mm_per_unit;
   if (std::isfinite(point.position[column])) return {};
-  return row.place.say(fmt::format("column {}: {} is too large", kColumns[column], quoted(row.cells[cell])));
+  return bad_input(row.place.say(fmt::format("column {}: {} is too large", kColumns[column], quoted(row.cells[cell]))));
 }
 
-/// Reads one line of numbers. Returns the error, empty = none.
-std::string parse_point(const CsvRow& row, double mm_per_unit, ProbePoint& point) {
+/// Reads one line of numbers.
+Failure parse_point(const CsvRow& row, double mm_per_unit, ProbePoint& point) {
   for (std::size_t cell = 0; cell < row.cells.size(); ++cell) {
     const std::size_t column = row.columns[cell];
-    std::string error = column == kPathColumn     ? parse_path(row.place, row.cells[cell], point)
-                        : column == kWeightColumn ? parse_weight(row.place, row.cells[cell], point)
-                                                  : parse_coordinate(row, cell, mm_per_unit, point);
-    if (!error.empty()) return error;
+    Failure failure = column == kPathColumn     ? parse_path(row.place, row.cells[cell], point)
+                      : column == kWeightColumn ? parse_weight(row.place, row.cells[cell], point)
+                                                : parse_coordinate(row, cell, mm_per_unit, point);
+    if (failure) return failure;
   }
   const double length = length_of(point.approach);
   if (normalise_direction(point.approach)) return {};
-  return row.place.say(fmt::format(
+  return bad_input(row.place.say(fmt::format(
       "columns i,j,k: the direction has the length {:.6g}; make it a unit vector, or 0,0,0 where it is unknown",
-      length));
+      length)));
 }
 
-PointsFile failed(std::string error) {
+PointsFile failed(Failure failure) {
   PointsFile file;
-  file.error = std::move(error);
+  file.error = std::move(failure);
   return file;
 }
 
@@ -78,11 +77,13 @@ PointsFile failed(std::string error) {
 
 PointsFile parse_points_csv(std::string_view text, std::string_view name, double mm_per_unit) {
   PointsFile file;
-  const auto take = [&](const CsvRow& row) -> std::string {
-    if (file.points.size() == std::numeric_limits<std::uint32_t>::max()) return row.place.say("too many points");
+  const auto take = [&](const CsvRow& row) -> Failure {
+    if (file.points.size() == std::numeric_limits<std::uint32_t>::max()) {
+      return bad_input(row.place.say("too many points"));
+    }
     ProbePoint point;
     point.sequence = static_cast<std::uint32_t>(file.points.size() + 1);
-    if (std::string error = parse_point(row, mm_per_unit, point); !error.empty()) return error;
+    if (Failure failure = parse_point(row, mm_per_unit, point)) return failure;
     if (file.points.empty()) {
       for (const std::size_t column : row.columns) {
         file.has_path = file.has_path || column == kPathColumn;
@@ -92,16 +93,18 @@ PointsFile parse_points_csv(std::string_view text, std::string_view name, double
     file.points.push_back(point);
     return {};
   };
-  if (std::string error = read_csv_table(text, name, kFormat, take); !error.empty()) return failed(std::move(error));
-  if (file.points.empty())
-    return failed(fmt::format("{}: the list of points is empty; add a line for each point", name));
+  if (Failure failure = read_csv_table(text, name, kFormat, take)) return failed(std::move(failure));
+  if (file.points.empty()) {
+    return failed(bad_input(fmt::format("{}: the list of points is empty; add a line for each point", name)));
+  }
   return file;
 }
 
 PointsFile read_points_csv(const std::string& path, double mm_per_unit) {
   std::string text;
-  const std::string fault = read_file(path, kMaxFileSize, text);
-  if (!fault.empty()) return failed(fmt::format("{}: {}; give a readable CSV file of points", path, fault));
+  if (const Failure failure = read_file(path, kMaxFileSize, text)) {
+    return failed(bad_input(fmt::format("{}: {}; give a readable CSV file of points", path, failure.message)));
+  }
   return parse_points_csv(text, path, mm_per_unit);
 }
 

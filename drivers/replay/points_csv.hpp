@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/probe_point.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -12,7 +13,7 @@ struct PointsFile {
   std::vector<ProbePoint> points;  ///< [mm], numbered from 1 in the order of the file; empty where `error` is set
   bool has_approach = false;       ///< the file has columns i,j,k
   bool has_path = false;           ///< the file has a column path
-  std::string error;               ///< one line: file, line, column and the mend; empty = no error
+  Failure error;                   ///< bad_input: one line with file, line, column and the fix
 };
 
 /// Reads points from `text`, the content of the file `name` (used in errors only).

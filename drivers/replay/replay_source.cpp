@@ -28,13 +28,13 @@ std::uint32_t digest(const std::vector<ProbePoint>& points) {
 
 }  // namespace
 
-SourceError ReplaySource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
-  PointsFile file = read_points_csv(settings_.file, settings_.mm_per_unit);
-  if (!file.error.empty()) return {std::move(file.error), true};
+Failure ReplaySource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
+  PointsFile file = read_points_csv(settings_.file, settings_.mm_per_unit.value_or(1));
+  if (file.error) return std::move(file.error);
   if (after > file.points.size()) {
-    return {fmt::format("{}: has {} points, but the session already holds {}; replay the file the session began with",
-                        settings_.file, file.points.size(), after),
-            true};
+    return bad_input(
+        fmt::format("{}: has {} points, but the session already holds {}; replay the file the session began with",
+                    settings_.file, file.points.size(), after));
   }
   points_ = std::move(file.points);
   next_ = after;

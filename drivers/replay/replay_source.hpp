@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/replay/replay_settings.hpp"
 #include "drivers/source/probe_source.hpp"
-#include "drivers/source_settings.hpp"
 
 namespace bladefit {
 
@@ -13,8 +13,8 @@ class ReplaySource final : public ProbeSource {
  public:
   explicit ReplaySource(ReplaySettings settings) : settings_(std::move(settings)) {}
 
-  /// Error: a file that read_points_csv() refuses, or one with fewer than `after` points.
-  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
+  /// bad_input: a file that read_points_csv() refuses, or one with fewer than `after` points.
+  [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t) override {}
   void close() override {}

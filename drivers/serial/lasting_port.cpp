@@ -19,8 +19,8 @@ bool LastingPort::reopen(Clock::time_point until, SourceStatus& status) {
     std::this_thread::sleep_until(std::min(until, back_off_.retry_at()));
     return false;
   }
-  if (const std::string fault = port_.open(line_); !fault.empty()) {
-    lost(fault, status);
+  if (const Failure failure = port_.open(line_)) {
+    lost(failure.message, status);
     return false;
   }
   ++status.reconnects;

@@ -13,8 +13,8 @@ class LastingPort {
   LastingPort(const SerialLineSettings& line, std::chrono::milliseconds first, std::chrono::milliseconds longest)
       : line_(line), back_off_(first, longest) {}
 
-  /// Opens it for the first time. Returns a phrase with the mend; empty = open.
-  [[nodiscard]] std::string open() { return port_.open(line_); }
+  /// Opens it for the first time. `device`: a phrase with the fix.
+  [[nodiscard]] Failure open() { return port_.open(line_); }
 
   /// Closes it because of a fault, which is published.
   void lost(const std::string& fault, SourceStatus& status);

@@ -52,11 +52,11 @@ std::string port_error_text(int error) {
   }
 }
 
-std::string PortGuard::lock(const std::string& device) {
+Failure PortGuard::lock(const std::string& device) {
   release();
   device_ = device;
   descriptor_ = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor_ < 0) return port_error_text(errno);
+  if (descriptor_ < 0) return device_failure(port_error_text(errno));
   int error = 0;
   if (::isatty(descriptor_) == 0) {
     error = ENOTTY;
@@ -66,7 +66,7 @@ std::string PortGuard::lock(const std::string& device) {
   if (error == 0) return {};
   ::close(descriptor_);
   descriptor_ = -1;
-  return port_error_text(error);
+  return device_failure(port_error_text(error));
 }
 
 void PortGuard::shut_out_others() const { ::ioctl(descriptor_, TIOCEXCL); }

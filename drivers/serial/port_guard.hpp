@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include "drivers/source/failure.hpp"
+
 namespace bladefit {
 
 /// Sole use of a serial port: an advisory lock that every bladefit takes, and the port's own exclusive mode, which
@@ -12,9 +14,9 @@ class PortGuard {
   PortGuard& operator=(const PortGuard&) = delete;
   ~PortGuard() { release(); }
 
-  /// Locks the port at `device`. Returns one phrase with the mend where it is missing, busy, forbidden or no serial
-  /// port.
-  [[nodiscard]] std::string lock(const std::string& device);
+  /// Locks the port at `device`. Failure `device`: one phrase with the fix where it is missing, busy, forbidden or no
+  /// serial port.
+  [[nodiscard]] Failure lock(const std::string& device);
 
   /// Shuts out later openers. To be called once everything of this process has the port open.
   void shut_out_others() const;
@@ -32,7 +34,7 @@ class PortGuard {
   int descriptor_ = -1;
 };
 
-/// What an errno of opening a serial port means, with the mend.
+/// What an errno of opening a serial port means, with the fix.
 [[nodiscard]] std::string port_error_text(int error);
 
 }  // namespace bladefit

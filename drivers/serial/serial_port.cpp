@@ -26,12 +26,14 @@ tcflag_t parity_flags(Parity parity) {
   return PARENB | PARODD;
 }
 
-/// Raw bytes, no flow control, no modem lines. Returns a phrase with the mend; empty = set.
-std::string configure(int descriptor, const SerialLineSettings& settings) {
+/// Raw bytes, no flow control, no modem lines. A failure is a phrase with the fix.
+Failure configure(int descriptor, const SerialLineSettings& settings) {
   const std::optional<speed_t> speed = speed_code(settings.baud);
   termios line{};
-  if (!speed) return fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings.baud);
-  if (::tcgetattr(descriptor, &line) != 0) return port_error_text(errno);
+  if (!speed)
+    return device_failure(
+        fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings.baud));
+  if (::tcgetattr(descriptor, &line) != 0) return device_failure(port_error_text(errno));
   ::cfmakeraw(&line);
   line.c_cflag &= ~static_cast<tcflag_t>(CSIZE | CSTOPB | PARENB | PARODD | CRTSCTS);
   line.c_cflag |= CREAD | CLOCAL | parity_flags(settings.parity);
@@ -43,18 +45,19 @@ std::string configure(int descriptor, const SerialLineSettings& settings) {
   ::cfsetispeed(&line, *speed);
   ::cfsetospeed(&line, *speed);
   if (::tcsetattr(descriptor, TCSANOW, &line) == 0) return {};
-  return fmt::format("the port cannot be set to {} baud, {} data bits, {} stop bits; correct the settings of the line",
-                     settings.baud, settings.data_bits, settings.stop_bits);
+  return device_failure(
+      fmt::format("the port cannot be set to {} baud, {} data bits, {} stop bits; correct the settings of the line",
+                  settings.baud, settings.data_bits, settings.stop_bits));
 }
 
 }  // namespace
 
-std::string SerialPort::open(const SerialLineSettings& settings) {
+Failure SerialPort::open(const SerialLineSettings& settings) {
   close();
-  if (std::string fault = guard_.lock(settings.device); !fault.empty()) return fault;
-  if (std::string fault = configure(guard_.descriptor(), settings); !fault.empty()) {
+  if (Failure failure = guard_.lock(settings.device)) return failure;
+  if (Failure failure = configure(guard_.descriptor(), settings)) {
     close();
-    return fault;
+    return failure;
   }
   guard_.shut_out_others();
   ::tcflush(guard_.descriptor(), TCIOFLUSH);

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "drivers/serial/line_settings.hpp"
 #include "drivers/serial/port_guard.hpp"
-#include "drivers/source_settings.hpp"
 
 namespace bladefit {
 
@@ -21,8 +21,8 @@ class SerialPort {
   SerialPort& operator=(const SerialPort&) = delete;
   ~SerialPort() { close(); }
 
-  /// Opens and sets the port and throws away what was waiting in it. Returns a phrase with the mend; empty = open.
-  [[nodiscard]] std::string open(const SerialLineSettings& settings);
+  /// Opens and sets the port and throws away what was waiting in it. `device`: a phrase with the fix.
+  [[nodiscard]] Failure open(const SerialLineSettings& settings);
 
   [[nodiscard]] bool is_open() const { return guard_.descriptor() >= 0; }
 

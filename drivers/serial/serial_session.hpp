@@ -1,14 +1,14 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <string>
 
+#include "drivers/serial/record_order.hpp"
+#include "drivers/serial/resend_request.hpp"
 #include "drivers/serial/serial_message.hpp"
-#include "drivers/source/point_queue.hpp"
+#include "drivers/serial/serial_settings.hpp"
+#include "drivers/source/acknowledgement.hpp"
 #include "drivers/source/probe_source.hpp"
-#include "drivers/source_settings.hpp"
 
 namespace bladefit {
 
@@ -20,13 +20,14 @@ namespace bladefit {
 ///                       ^------------- long silence --------------'
 ///
 /// While running, a jump in the sequence or a damaged line is answered by $NAK of the first missing record, for the
-/// same record at most once per resend_interval; records behind the jump are dropped, because the device sends them
+/// same record at most once per resend_interval; records behind the jump are kept, although the device sends them
 /// again. $START names the first record that is not stored, never one beyond: the device may forget what is before it.
 class SerialSession {
  public:
   using Clock = std::chrono::steady_clock;
 
-  SerialSession(const SerialSettings& settings, SourceStatus& status) : settings_(settings), status_(status) {}
+  SerialSession(const SerialSettings& settings, SourceStatus& status)
+      : settings_(settings), status_(status), resend_(settings) {}
 
   /// Forgets everything; the next record wanted is after + 1. Those before it are of the run `run_id`.
   void restart(std::uint32_t after, std::uint32_t run_id);
@@ -55,7 +56,7 @@ class SerialSession {
   /// Takes the lines to send.
   [[nodiscard]] std::string take_output();
 
-  [[nodiscard]] PointQueue& points() { return points_; }
+  [[nodiscard]] PointQueue& points() { return records_.points(); }
 
   /// The device has answered $START.
   [[nodiscard]] bool running() const { return stage_ == Stage::running; }
@@ -63,45 +64,34 @@ class SerialSession {
   /// The numbering has restarted: nothing more is delivered.
   [[nodiscard]] bool stopped() const { return stage_ == Stage::stopped; }
 
-  /// Records are missing ahead of others that came, or ahead of the end that the device told.
-  [[nodiscard]] bool behind() const { return !ahead_.empty() || (end_ && *end_ >= next_); }
+  /// Records are missing ahead of others that came, or ahead of the end that the device gave.
+  [[nodiscard]] bool behind() const { return records_.behind(); }
 
   /// The device said that the program is finished, and every record was handed out.
-  [[nodiscard]] bool finished() const { return complete() && points_.empty(); }
+  [[nodiscard]] bool finished() const { return records_.complete() && records_.points().empty(); }
 
  private:
   enum class Stage : std::uint8_t { down, starting, running, stopped };
 
-  [[nodiscard]] bool complete() const { return end_ && *end_ + 1 == next_; }
   void start(Clock::time_point now);
-  void run_told(std::uint32_t run_id, Clock::time_point now);
+  void run_named(std::uint32_t run_id, Clock::time_point now);
   void point_came(const ProbePoint& point, Clock::time_point now, std::int64_t time_us);
-  void end_told(std::uint32_t last, Clock::time_point now);
-  void deliver(const ProbePoint& point);
+  void end_named(std::uint32_t last, Clock::time_point now);
   void ask_again(Clock::time_point now);
-  [[nodiscard]] bool asked_in_vain(Clock::time_point now) const;
-  void give_up_before(std::uint32_t sequence);
-  [[nodiscard]] Clock::time_point ask_at() const;
+  void give_up_missing();
   void break_silence(Clock::time_point now);
 
   const SerialSettings& settings_;
   SourceStatus& status_;
   Stage stage_ = Stage::down;
-  PointQueue points_;
+  RecordOrder records_;
+  ResendRequest resend_;
+  Acknowledgement acknowledgement_;
   std::string output_;
-  std::map<std::uint32_t, ProbePoint> ahead_;  ///< records behind a missing one
-  std::uint32_t next_ = 1;
-  std::optional<std::uint32_t> end_;  ///< last sequence of the program, as $END told it
-  std::uint32_t run_id_ = 0;          ///< of the records that were taken; what $RUN told where none were
-  std::uint32_t stored_ = 0, acknowledged_ = 0;
-  bool doubtful_ = false;           ///< a damaged line came since the last good record
+  std::uint32_t run_id_ = 0;        ///< of the records that were taken; what $RUN named where none were
   int starts_ = 0;                  ///< $START sent in a row without an answer
-  int silences_ = 0;                ///< intervals of silence in a row
-  std::uint32_t asked_for_ = 0;     ///< record of the last $NAK; 0 = none
-  int asked_ = 0;                   ///< how often it was asked for
-  Clock::time_point asked_at_{};    ///< time of the last $NAK
-  Clock::time_point doubted_at_{};  ///< time of the damaged line
   Clock::time_point started_at_{};  ///< time of the last $START
+  int silences_ = 0;                ///< intervals of silence in a row
   Clock::time_point heard_at_{};    ///< time of the last line, or of the last try to break the silence
 };
 

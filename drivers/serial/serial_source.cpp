@@ -9,7 +9,6 @@
 #include "drivers/serial/protocol_v1.hpp"
 #include "drivers/source/host_clock.hpp"
 #include "drivers/source/source_fault.hpp"
-#include "drivers/source_uri.hpp"
 
 namespace bladefit {
 namespace {
@@ -20,18 +19,18 @@ constexpr const char* kHangUp = "the port has hung up; check the cable";
 
 }  // namespace
 
-SerialSource::SerialSource(const SourceSettings& settings)
+SerialSource::SerialSource(const SerialSettings& settings, std::string name)
     : settings_(settings),
-      name_(source_name(settings)),
-      session_(settings_.serial, status_),
-      port_(settings.line, settings.serial.reconnect_first, settings.serial.reconnect_longest) {}
+      name_(std::move(name)),
+      session_(settings_, status_),
+      port_(settings.line, settings.reconnect_first, settings.reconnect_longest) {}
 
-SourceError SerialSource::open(std::uint32_t after, std::uint32_t run_id) {
+Failure SerialSource::open(std::uint32_t after, std::uint32_t run_id) {
   status_ = {};
   session_.restart(after, run_id);
-  if (const std::string fault = port_.open(); !fault.empty()) return {fmt::format("{}: {}", name_, fault)};
+  if (const Failure failure = port_.open()) return device_failure(fmt::format("{}: {}", name_, failure.message));
   link_made();
-  const Clock::time_point deadline = Clock::now() + settings_.serial.open_timeout;
+  const Clock::time_point deadline = Clock::now() + settings_.open_timeout;
   const auto answered = [this] { return session_.running() || session_.stopped(); };
   while (!answered() && Clock::now() < deadline) step(deadline);
   if (answered()) return {};
@@ -39,7 +38,7 @@ SourceError SerialSource::open(std::uint32_t after, std::uint32_t run_id) {
                                 ? "the device does not answer $START; switch it on, or correct baud and parity"
                                 : status_.last_fault;
   port_->close();
-  return {fmt::format("{}: {}", name_, fault)};
+  return device_failure(fmt::format("{}: {}", name_, fault));
 }
 
 std::size_t SerialSource::poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) {
@@ -73,7 +72,7 @@ void SerialSource::take_lines() {
     const Clock::time_point now = Clock::now();
     if (!line->damage.empty()) {
       session_.damaged(line->damage, now);
-    } else if (!settings_.serial.echo || !echo_.takes(line->text)) {
+    } else if (!settings_.echo || !echo_.takes(line->text)) {
       session_.received(parse_message(line->text), now, host_time_us());
     }
   }
@@ -81,7 +80,7 @@ void SerialSource::take_lines() {
 
 void SerialSource::send() {
   const std::string output = session_.take_output();
-  if (settings_.serial.echo) echo_.sent(output);
+  if (settings_.echo) echo_.sent(output);
   if (echo_.overdue()) {
     echo_.reset();
     note_fault(status_, "nothing of what is sent comes back; set echo = false");

@@ -12,10 +12,10 @@ namespace bladefit {
 /// A machine that speaks serial protocol v1.
 class SerialSource final : public ProbeSource {
  public:
-  explicit SerialSource(const SourceSettings& settings);
+  SerialSource(const SerialSettings& settings, std::string name);
 
-  /// Takes at most about settings.serial.open_timeout. A port that hangs up meanwhile is opened again.
-  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t run_id) override;
+  /// Takes at most about settings.open_timeout. A port that hangs up meanwhile is opened again.
+  [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t sequence) override { session_.acknowledge(sequence); }
   void close() override;
@@ -31,7 +31,7 @@ class SerialSource final : public ProbeSource {
   void send();
   void take_lines();
 
-  const SourceSettings settings_;
+  const SerialSettings settings_;
   const std::string name_;
   SourceStatus status_;
   SerialSession session_;

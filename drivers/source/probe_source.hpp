@@ -5,17 +5,11 @@
 #include <string>
 
 #include "core/probe_point.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
 enum class LinkState : std::uint8_t { connecting, up, lost };
-
-/// Why a source cannot start. `message` is one line that names the device and the mend; empty = no error.
-struct SourceError {
-  std::string message;
-  bool bad_input = false;  ///< what was named is wrong, rather than the device or the line
-  [[nodiscard]] explicit operator bool() const { return !message.empty(); }
-};
 
 /// Published state of a source, for the panel and the log.
 struct SourceStatus {
@@ -32,7 +26,7 @@ struct SourceStatus {
   std::uint32_t consecutive_faults = 0;  ///< 0 after any good exchange
   std::string last_fault;                ///< the newest fault in words; empty = none so far
   std::uint64_t losses = 0;              ///< how often records were lost in the device, not to be had again
-  std::string last_loss;                 ///< the newest in words: which records, why, and the mend
+  std::string last_loss;                 ///< the newest in words: which records, why, and the fix
 };
 
 /// Where probe points come from: a machine or a recording. One thread owns it.
@@ -43,10 +37,10 @@ class ProbeSource {
   virtual ~ProbeSource() = default;
 
   /// Connects and asks for the records after `after` (0 = from the first). A device that is missing, busy, of another
-  /// map version or of a wrong word order is an error here; later losses of the link are mended by the source itself.
+  /// map version or of a wrong word order is an error here; later losses of the link are overcome by the source itself.
   /// `run_id` is the run that the records up to `after` are of (where there are any): a device that is in another one
-  /// is left as it is, where the protocol tells the run before it asks for anything; status() says which run it is in.
-  [[nodiscard]] virtual SourceError open(std::uint32_t after, std::uint32_t run_id) = 0;
+  /// is left as it is, where the protocol shows the run before it asks for anything; status() says which run it is in.
+  [[nodiscard]] virtual Failure open(std::uint32_t after, std::uint32_t run_id) = 0;
 
   /// Waits for at most `timeout` and writes the next records to `points`. Returns how many; 0 is no error.
   [[nodiscard]] virtual std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) = 0;

@@ -1,11 +1,11 @@
 #pragma once
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "drivers/source/failure.hpp"
 #include "drivers/text/csv_text.hpp"
 
 namespace bladefit {
@@ -15,7 +15,7 @@ struct CsvFormat {
   std::span<const std::string_view> columns;  ///< names that the file may have
   std::size_t needed = 0;                     ///< the first so many must be there,
   std::size_t together = 0;                   ///< and those from there to this one all or none
-  std::string_view mend;                      ///< what the first line must be, for messages
+  std::string_view fix;                       ///< what the first line must be, for messages
 };
 
 /// One line of values.
@@ -26,12 +26,11 @@ struct CsvRow {
 };
 
 /// Hands every row of `text` to `take`, which returns what is wrong with it, or nothing. `name`: of the file.
-/// Returns the first error, empty = none; a file without a line of names is one, a file without rows is not.
-[[nodiscard]] std::string read_csv_table(std::string_view text, std::string_view name, const CsvFormat& format,
-                                         const std::function<std::string(const CsvRow&)>& take);
+/// Returns the first failure; a file without a line of names is one, a file without rows is not.
+[[nodiscard]] Failure read_csv_table(std::string_view text, std::string_view name, const CsvFormat& format,
+                                     const std::function<Failure(const CsvRow&)>& take);
 
-/// The number in a cell; where there is none, `error` says so.
-[[nodiscard]] std::optional<double> finite_cell(const CsvRow& row, std::size_t cell, const CsvFormat& format,
-                                                std::string& error);
+/// Reads the number in a cell. bad_input where there is none; then `value` is as before.
+[[nodiscard]] Failure finite_cell(const CsvRow& row, std::size_t cell, const CsvFormat& format, double& value);
 
 }  // namespace bladefit

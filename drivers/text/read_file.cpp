@@ -10,16 +10,16 @@
 
 namespace bladefit {
 
-std::string read_file(const std::string& path, std::size_t largest, std::string& text) {
+Failure read_file(const std::string& path, std::size_t largest, std::string& text) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"), &std::fclose);
-  if (!stream) return std::strerror(errno);
+  if (!stream) return bad_input(std::strerror(errno));
   text.clear();
   std::array<char, 65536> block{};
   while (const std::size_t count = std::fread(block.data(), 1, block.size(), stream.get())) {
-    if (text.size() + count > largest) return fmt::format("larger than {} bytes", largest);
+    if (text.size() + count > largest) return bad_input(fmt::format("larger than {} bytes", largest));
     text.append(block.data(), count);
   }
-  return std::ferror(stream.get()) != 0 ? std::strerror(errno) : std::string{};
+  return std::ferror(stream.get()) != 0 ? bad_input(std::strerror(errno)) : Failure{};
 }
 
 }  // namespace bladefit

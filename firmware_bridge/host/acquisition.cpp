@@ -18,7 +18,7 @@ constexpr std::size_t kPollPoints = 64;
 void Acquisition::run() {
   replay_recorded();
   SessionEnd end = SessionEnd::stopped;
-  if (!shared_.stop_requested.load() && open_source()) {
+  if (!shared_.requests.stop.load() && open_source()) {
     end = SessionEnd::running;
     while (end == SessionEnd::running) {
       follow_commands();
@@ -38,27 +38,26 @@ void Acquisition::replay_recorded() {
     give_to_fit({false, event});
   }
   recorded_.events = {};
-  shared_.stored_sequence.store(last_sequence_);
+  shared_.stored.sequence.store(last_sequence_);
 }
 
 bool Acquisition::open_source() {
-  if (const SourceError error = source_.open(last_sequence_, recorded_.run_id)) {
-    shared_.fail({error.bad_input ? Fault::bad_input : Fault::device, error.message});
+  if (const Failure failure = source_.open(last_sequence_, recorded_.run_id)) {
+    shared_.outcome.fail(failure);
     return false;
   }
   opened_ = true;
   run_id_ = source_.status().run_id;
   if (!recorded_.exists) {
-    const HostError error = journal_.start(settings_.identity, run_id_);
-    if (error) shared_.fail(error);
+    const Failure error = journal_.start(settings_.identity, run_id_);
+    if (error) shared_.outcome.fail(error);
     return !error;
   }
   if (recorded_.run_id != run_id_) {
-    shared_.fail(
-        {Fault::bad_input,
-         fmt::format("the device is in run {}, the session folder holds run {}: its points have other numbers; "
-                     "name another session folder with --session",
-                     run_id_, recorded_.run_id)});
+    shared_.outcome.fail(bad_input(
+        fmt::format("the device is in run {}, the session folder holds run {}: its points have other numbers; "
+                    "name another session folder with --session",
+                    run_id_, recorded_.run_id)));
     return false;
   }
   last_point_ = Clock::now();
@@ -66,7 +65,7 @@ bool Acquisition::open_source() {
 }
 
 void Acquisition::take_points() {
-  if (shared_.paused.load()) {
+  if (shared_.requests.pause.load()) {
     std::this_thread::sleep_for(kPollTimeout);
     return;
   }
@@ -87,27 +86,27 @@ void Acquisition::take_point(const ProbePoint& point) {
 // The fit comes first: its alarm is what the operator waits for.
 void Acquisition::take(const StreamEvent& event) {
   give_to_fit({false, event});
-  while (!shared_.to_journal.push(event) && !shared_.failed.load()) std::this_thread::sleep_for(kRoomPause);
-  shared_.journal_wakeup.signal();
+  while (!shared_.to_journal.ring.push(event) && !shared_.outcome.failed()) std::this_thread::sleep_for(kRoomPause);
+  shared_.to_journal.wakeup.signal();
   ++taken_events_;
 }
 
 void Acquisition::give_to_fit(const FitInput& input) {
-  while (!shared_.to_fit.push(input)) std::this_thread::sleep_for(kRoomPause);
-  shared_.fit_wakeup.signal();
+  while (!shared_.to_fit.ring.push(input)) std::this_thread::sleep_for(kRoomPause);
+  shared_.to_fit.wakeup.signal();
 }
 
 void Acquisition::follow_commands() {
-  if (!shared_.reset_requested.exchange(false)) return;
+  if (!shared_.requests.reset.exchange(false)) return;
   finish_taken_ = false;
   take({EventKind::reset, {}});
-  shared_.notice("all points so far are forgotten, as the panel asked");
+  shared_.notices.write("all points so far are forgotten, as the panel asked");
 }
 
 void Acquisition::follow_source() {
   const SourceStatus& status = source_.status();
   announce_changes(status);
-  shared_.link_figures.publish({status.link, status.losses, shared_.paused.load(), status.device_fault});
+  shared_.link_figures.publish({status.link, status.losses, shared_.requests.pause.load(), status.device_fault});
   if (!status.finished || finish_taken_) return;
   finish_taken_ = true;
   take({EventKind::finished, {}});
@@ -117,68 +116,70 @@ void Acquisition::announce_changes(const SourceStatus& status) {
   const bool announce =
       status.link != announced_link_ || status.losses != announced_losses_ || status.device_fault != announced_fault_;
   if (status.link != announced_link_ && status.link == LinkState::lost) {
-    shared_.notice(fmt::format("link lost: {}", status.last_fault));
+    shared_.notices.write(fmt::format("link lost: {}", status.last_fault));
   }
-  if (status.link != announced_link_ && status.link == LinkState::up) shared_.notice("link is up again");
-  if (status.losses != announced_losses_) shared_.notice(status.last_loss);
+  if (status.link != announced_link_ && status.link == LinkState::up) shared_.notices.write("link is up again");
+  if (status.losses != announced_losses_) shared_.notices.write(status.last_loss);
   if (status.device_fault != announced_fault_) {
-    shared_.notice(status.device_fault ? "the device reports a fault; see its own screen"
-                                       : "the device's fault is over");
+    shared_.notices.write(status.device_fault ? "the device reports a fault; see its own screen"
+                                              : "the device's fault is over");
   }
   announced_fault_ = status.device_fault;
   announced_link_ = status.link;
   announced_losses_ = status.losses;
-  if (announce) shared_.publication_wakeup.signal();
+  if (announce) shared_.to_publication.wakeup.signal();
 }
 
 bool Acquisition::run_id_has_changed() {
   const std::uint32_t now = source_.status().run_id;
   if (now == run_id_) return false;
-  shared_.fail({Fault::device, fmt::format("the device has left run {} and started run {}, which numbers its points "
-                                           "from 1 again; start a session in another folder for it",
-                                           run_id_, now)});
+  shared_.outcome.fail(
+      device_failure(fmt::format("the device has left run {} and started run {}, which numbers its points "
+                                 "from 1 again; start a session in another folder for it",
+                                 run_id_, now)));
   return true;
 }
 
 /// No point came for the whole idle time, and none could have come: that is no end of a program.
 bool Acquisition::link_is_gone() {
   if (source_.status().link != LinkState::lost) return false;
-  shared_.fail({Fault::device, fmt::format("the link is lost and did not come back: {}; mend it, then run the session "
-                                           "again with the same --session to go on",
-                                           source_.status().last_fault)});
+  shared_.outcome.fail(
+      device_failure(fmt::format("the link is lost and did not come back: {}; mend it, then run the session "
+                                 "again with the same --session to go on",
+                                 source_.status().last_fault)));
   return true;
 }
 
 SessionEnd Acquisition::end_reached() {
-  if (run_id_has_changed() || shared_.failed.load()) return SessionEnd::failed;
-  if (shared_.stop_requested.load()) return SessionEnd::stopped;
+  if (run_id_has_changed() || shared_.outcome.failed()) return SessionEnd::failed;
+  if (shared_.requests.stop.load()) return SessionEnd::stopped;
   if (settings_.end_when_finished && finish_taken_) return SessionEnd::finished;
   // While records are behind the source asks for them, and in the end gives them up.
   const bool idle = settings_.idle.count() > 0 && Clock::now() - last_point_ > settings_.idle;
-  if (!idle || shared_.paused.load() || (source_.status().behind && source_.status().link == LinkState::up))
+  if (!idle || shared_.requests.pause.load() || (source_.status().behind && source_.status().link == LinkState::up))
     return SessionEnd::running;
   return link_is_gone() ? SessionEnd::failed : SessionEnd::idle;
 }
 
 void Acquisition::acknowledge_stored() {
-  const std::uint32_t stored = shared_.stored_sequence.load();
+  const std::uint32_t stored = shared_.stored.sequence.load();
   if (stored == acknowledged_) return;
   acknowledged_ = stored;
   source_.acknowledge(stored);
 }
 
 void Acquisition::finish(SessionEnd end) {
-  while (shared_.stored_events.load() < taken_events_ && !shared_.failed.load()) {
-    shared_.stored_wakeup.wait(kStoreWait);
+  while (shared_.stored.events.load() < taken_events_ && !shared_.outcome.failed()) {
+    shared_.stored.wakeup.wait(kStoreWait);
   }
   if (opened_) {
     acknowledge_stored();
     source_.close();
   }
   shared_.journal_closed.store(true);
-  shared_.journal_wakeup.signal();
+  shared_.to_journal.wakeup.signal();
   give_to_fit({true, {}});
-  shared_.end.store(shared_.failed.load() ? SessionEnd::failed : end);
+  shared_.outcome.conclude(end);
 }
 
 }  // namespace bladefit

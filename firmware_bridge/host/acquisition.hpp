@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
 
 namespace bladefit {

@@ -13,6 +13,7 @@
 #include "firmware_bridge/host/fit/fit_worker.hpp"
 #include "firmware_bridge/host/journal/config_digest.hpp"
 #include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "firmware_bridge/host/journal/journal_writer.hpp"
 #include "firmware_bridge/host/journal/session_folder.hpp"
 #include "firmware_bridge/host/panel/publication.hpp"
@@ -40,40 +41,27 @@ class LocalizerMemory {
   std::size_t size_;
 };
 
-HostError check_identity(const std::string& path, const JournalContent& recorded, const SessionIdentity& wanted) {
+Failure check_identity(const std::string& path, const JournalContent& recorded, const SessionIdentity& wanted) {
   if (!recorded.exists) return {};
   if (recorded.identity.design_crc != wanted.design_crc) {
-    return {Fault::bad_input, fmt::format("{}: the session in this folder was probed against another design; name that "
-                                          "design, or another folder with --session",
-                                          path)};
+    return bad_input(
+        fmt::format("{}: the session in this folder was probed against another design; name that "
+                    "design, or another folder with --session",
+                    path));
   }
   if (recorded.identity.config_digest != wanted.config_digest) {
-    return {Fault::bad_input, fmt::format("{}: the session in this folder was started with other fit settings; repeat "
-                                          "those, or name another folder with --session",
-                                          path)};
+    return bad_input(
+        fmt::format("{}: the session in this folder was started with other fit settings; repeat "
+                    "those, or name another folder with --session",
+                    path));
   }
   return {};
 }
-
-/// False for a record that the localizer could not use, such as one with a number that is not finite.
-bool has_foot(const Verdict& verdict) { return !verdict.foot.normal.isZero(); }
 
 }  // namespace
 
 std::string journal_path(const std::string& session_directory) {
   return (std::filesystem::path(session_directory) / "journal.bin").string();
-}
-
-/// The fit of exactly the events on disk: where the disk failed, points were fitted that the result does not hold.
-void fit_again(FitStream stream, const std::vector<StreamEvent>& events) {
-  stream.reset();
-  Verdict verdict;
-  for (const StreamEvent& event : events) {
-    if (event.kind == EventKind::reset) stream.reset();
-    if (event.kind == EventKind::finished) stream.settle();
-    if (event.kind == EventKind::point && stream.push(event.point, verdict)) stream.end_path();
-  }
-  stream.settle();
 }
 
 /// What exists while the threads run. The members that threads use come before the threads.
@@ -88,35 +76,34 @@ struct Host::Running {
   std::optional<Publication> publication;
   std::vector<std::thread> threads;
 
-  [[nodiscard]] HostError open_journal(const HostSettings& settings, const SessionIdentity& identity,
-                                       JournalContent& recorded);
-  [[nodiscard]] HostError make_localizer(const LocalizerConfig& config, const DesignImage& design);
+  [[nodiscard]] Failure open_journal(const HostSettings& settings, const SessionIdentity& identity,
+                                     JournalContent& recorded);
+  [[nodiscard]] Failure make_localizer(const LocalizerConfig& config, const DesignImage& design);
 };
 
-HostError Host::Running::open_journal(const HostSettings& settings, const SessionIdentity& identity,
-                                      JournalContent& recorded) {
-  if (const HostError error = folder.make(settings.session_directory)) return error;
+Failure Host::Running::open_journal(const HostSettings& settings, const SessionIdentity& identity,
+                                    JournalContent& recorded) {
+  if (const Failure error = folder.make(settings.session_directory)) return error;
   const std::string path = journal_path(settings.session_directory);
-  if (const HostError error = journal.open(path)) return error;
-  if (const HostError error = read_journal(path, recorded)) return error;
-  if (const HostError error = check_identity(path, recorded, identity)) return error;
-  return recorded.exists ? journal.resume(recorded.events.size()) : HostError{};
+  if (const Failure error = journal.open(path)) return error;
+  if (const Failure error = read_journal(path, recorded)) return error;
+  if (const Failure error = check_identity(path, recorded, identity)) return error;
+  return recorded.exists ? journal.resume(recorded.events.size()) : Failure{};
 }
 
-HostError Host::Running::make_localizer(const LocalizerConfig& config, const DesignImage& design) {
+Failure Host::Running::make_localizer(const LocalizerConfig& config, const DesignImage& design) {
   memory = std::make_unique<LocalizerMemory>(Localizer::memory_required(config));
   const Status status = Localizer::create(memory->bytes(), design, config, localizer);
   if (succeeded(status)) return {};
-  return {Fault::bad_input, fmt::format("the fit cannot start with these settings ({}); check capacity, tolerances, "
-                                        "leading-edge boxes and probe radius",
-                                        status_text(status))};
+  return bad_input(
+      fmt::format("the fit cannot start with these settings ({}); check capacity, tolerances, "
+                  "leading-edge boxes and probe radius",
+                  status_text(status)));
 }
 
 Host::Host(HostSettings settings, const DesignImage& design, ProbeSource& source,
            std::function<void(const std::string&)> on_notice)
-    : settings_(std::move(settings)), design_(design), source_(source) {
-  shared_.on_notice = std::move(on_notice);
-}
+    : settings_(std::move(settings)), design_(design), source_(source), shared_(std::move(on_notice)) {}
 
 Host::~Host() {
   if (!running_) return;
@@ -127,18 +114,19 @@ Host::~Host() {
   }
 }
 
-HostError Host::start() {
+Failure Host::start() {
   running_ = std::make_unique<Running>();
   Running& running = *running_;
   const SessionIdentity identity{design_.header().crc32,
                                  config_digest(settings_.localizer, settings_.path_refine_points)};
   JournalContent recorded;
-  if (const HostError error = running.make_localizer(settings_.localizer, design_)) return error;
-  if (const HostError error = running.open_journal(settings_, identity, recorded)) return error;
-  if (const HostError error = running.server.open(settings_.panel)) return error;
+  if (const Failure error = running.make_localizer(settings_.localizer, design_)) return error;
+  if (const Failure error = running.open_journal(settings_, identity, recorded)) return error;
+  if (const Failure error = running.server.open(settings_.panel)) return error;
   if (recorded.exists) {
-    shared_.notice(fmt::format("session resumed: {} events in the journal, {} bytes of an unfinished record cut off",
-                               recorded.events.size(), recorded.torn_bytes));
+    shared_.notices.write(
+        fmt::format("session resumed: {} events in the journal, {} bytes of an unfinished record cut off",
+                    recorded.events.size(), recorded.torn_bytes));
   }
   const AcquisitionSettings acquisition{identity, settings_.end_when_finished, settings_.idle};
   running.acquisition.emplace(acquisition, std::move(recorded), source_, running.journal, shared_);
@@ -162,39 +150,28 @@ bool Host::wait_for_end(std::chrono::milliseconds timeout) {
   return true;
 }
 
-void Host::request_stop() { shared_.stop_requested.store(true); }
+void Host::request_stop() { shared_.requests.stop.store(true); }
 
 SessionResult Host::finish() {
   shared_.panel_closed.store(true);
-  shared_.publication_wakeup.signal();
+  shared_.to_publication.wakeup.signal();
   for (std::thread& thread : running_->threads) thread.join();
-  SessionResult result{
-      .end = shared_.end.load(), .error = shared_.error(), .report = {}, .points = {}, .verdicts = {}, .refused = {}};
+  SessionResult result{.end = shared_.outcome.end(),
+                       .error = shared_.outcome.failure(),
+                       .report = {},
+                       .points = {},
+                       .verdicts = {},
+                       .refused = {}};
   JournalContent recorded;
-  const HostError unreadable = read_journal(journal_path(settings_.session_directory), recorded);
+  const Failure unreadable = read_journal(journal_path(settings_.session_directory), recorded);
   if (unreadable && !result.error) result.error = unreadable;
   if (result.error) {
     result.end = SessionEnd::failed;
-    fit_again({*running_->localizer, settings_.path_refine_points}, recorded.events);
+    // Where the disk failed, points were fitted that the result does not hold.
+    FitStream(*running_->localizer, settings_.path_refine_points).replay(recorded.events);
   }
   result.report = running_->localizer->fit();
-  for (const StreamEvent& event : recorded.events) {
-    if (event.kind == EventKind::reset) {
-      result.points.clear();
-      result.verdicts.clear();
-    }
-    const Verdict* const last = running_->publication->tally().find(event.point.sequence);
-    if (event.kind != EventKind::point || last == nullptr) continue;
-    Verdict verdict = *last;
-    // A point whose place was given away keeps the last verdict that came out for it.
-    [[maybe_unused]] const Status status = running_->localizer->verdict_of(event.point.sequence, verdict);
-    if (!has_foot(verdict)) {
-      result.refused.push_back(event.point.sequence);
-      continue;
-    }
-    result.points.push_back(event.point);
-    result.verdicts.push_back(verdict);
-  }
+  add_points(recorded.events, *running_->localizer, running_->publication->tally(), result);
   return result;
 }
 

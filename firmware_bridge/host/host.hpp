@@ -2,11 +2,11 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "core/localizer.hpp"
 #include "drivers/source/probe_source.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
+#include "firmware_bridge/host/session_result.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
 
 namespace bladefit {
@@ -16,21 +16,11 @@ struct HostSettings {
   /// Made when it is missing, and removed again when nothing was put into it. A session in it is resumed.
   std::string session_directory;
   PanelServerSettings panel;
-  /// Stored points projected anew when a path ends: bounds how long that makes the next point wait.
+  /// Stored points projected again when a path ends: bounds how long that makes the next point wait.
   std::uint32_t path_refine_points = 2048;
   bool end_when_finished = false;  ///< end when the device says that its program is finished
   /// End when no new point came for so long; a fault where the link is lost by then; 0 = never.
   std::chrono::milliseconds idle{0};
-};
-
-/// What a session came to.
-struct SessionResult {
-  SessionEnd end = SessionEnd::running;
-  HostError error;  ///< set where `end` is failed; the rest then tells of the points on disk
-  FitReport report;
-  std::vector<ProbePoint> points;      ///< as journalled, rising sequence
-  std::vector<Verdict> verdicts;       ///< final ones; verdicts[i] is that of points[i]
-  std::vector<std::uint32_t> refused;  ///< journalled records that cannot be used; they are not among `points`
 };
 
 /// The ready host: takes points from a source, keeps them in the journal of a session, judges them and serves a panel,
@@ -51,7 +41,7 @@ class Host {
 
   /// Opens journal and panel and starts the threads. bad_input: the folder holds another session, or a setting is out
   /// of range; `device`: folder or port cannot be used. The source is opened later, by the acquisition thread.
-  [[nodiscard]] HostError start();
+  [[nodiscard]] Failure start();
 
   /// Port that the panel listens at; after start().
   [[nodiscard]] std::uint16_t panel_port() const;
@@ -62,7 +52,7 @@ class Host {
   /// Ends the session as if its last point had come. Any thread.
   void request_stop();
 
-  /// Closes the panel and tells what the session came to. Call once, after wait_for_end() was true.
+  /// Closes the panel and gives what the session came to. Call once, after wait_for_end() was true.
   [[nodiscard]] SessionResult finish();
 
  private:

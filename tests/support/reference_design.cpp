@@ -28,7 +28,7 @@ const CompiledDesign& reference_design(const std::string& name) {
 
 std::vector<ProbePoint> points_of(const ReferenceCase& c, const ReferenceSubset& subset) {
   PointsFile file = read_points_csv(subset.points, c.mm_per_unit);
-  if (!file.error.empty()) throw std::runtime_error(file.error);
+  if (file.error) throw std::runtime_error(file.error.message);
   return file.points;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/batch/fit_options.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <string_view>
@@ -20,7 +21,7 @@ CLI::Option* add_flag(CLI::App& command, const FitOption& option, const Kind& ki
   using Given = typename Kind::Given;
   const std::string flag = flag_of(option), help(option.help);
   const auto take = [flag, &kind, &flags](const Given& given) {
-    if (const ConfigError error = set(kind, given, flags)) throw ToolError(flag + ": " + error.message);
+    if (const Failure error = set(kind, given, flags)) throw ToolError(flag + ": " + error.message);
   };
   if constexpr (std::is_same_v<Given, bool>) {
     return command.add_flag_callback(

@@ -1,5 +1,4 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -9,6 +8,10 @@
 #include "tools/batch/first_feet.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/files/tool_error.hpp"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace bladefit {
 

@@ -37,21 +37,20 @@ Pair parse_pair(const CsvRow& row) {
       pair.name = std::string(row.cells[k]);
       continue;
     }
-    std::string error;
-    const std::optional<double> value = finite_cell(row, k, kFormat, error);
-    if (!value) throw ToolError(error);
-    pair.numbers[row.columns[k]] = *value;
+    double value = 0;
+    if (const Failure failure = finite_cell(row, k, kFormat, value)) throw ToolError(failure);
+    pair.numbers[row.columns[k]] = value;
   }
   return pair;
 }
 
 std::vector<Pair> parse_pairs(std::string_view text, const std::string& name) {
   std::vector<Pair> pairs;
-  const std::string error = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
+  const Failure failure = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
     pairs.push_back(parse_pair(row));
-    return std::string();
+    return Failure();
   });
-  if (!error.empty()) throw ToolError(error);
+  if (failure) throw ToolError(failure);
   return pairs;
 }
 

@@ -56,7 +56,7 @@ std::vector<std::size_t> read_subset(const std::string& path, std::size_t rows) 
 
 std::vector<ProbePoint> read_points(const LocalizeFlags& flags, double mm_per_unit) {
   PointsFile file = read_points_csv(flags.points, mm_per_unit);
-  if (!file.error.empty()) throw ToolError(file.error);
+  if (file.error) throw ToolError(file.error);
   if (!flags.subset.empty()) {
     std::vector<ProbePoint> chosen;
     for (const std::size_t index : read_subset(flags.subset, file.points.size())) chosen.push_back(file.points[index]);
@@ -83,7 +83,7 @@ void check_result_file(const LocalizeFlags& flags, const FitSettings& settings) 
 int localize(const LocalizeFlags& flags) {
   FitSettings from_file;
   if (!flags.config.empty()) {
-    if (const ConfigError error = load_fit(flags.config, from_file)) throw ToolError(error.message);
+    if (const Failure error = load_fit(flags.config, from_file)) throw ToolError(error);
   }
   const FitSettings settings = merged(flags.fit, from_file);
   check_result_file(flags, settings);
@@ -107,8 +107,7 @@ int localize(const LocalizeFlags& flags) {
   const std::string json = result_json(result, plan);
   if (json_on_stdout) {
     std::fwrite(json.data(), 1, json.size(), stdout);
-    if (std::fflush(stdout) != 0)
-      throw ToolError("standard output: cannot write the result", ToolError::Kind::io_failure);
+    if (std::fflush(stdout) != 0) throw ToolError("standard output: cannot write the result", ToolError::Kind::device);
   } else if (!flags.json.empty()) {
     OutputFile(flags.json, json).commit();
   }

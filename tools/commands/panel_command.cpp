@@ -7,9 +7,10 @@
 #include <memory>
 #include <thread>
 
-#include "firmware_bridge/host/panel/panel_server.hpp"
+#include "firmware_bridge/host/panel/panel_address.hpp"
 #include "tools/commands/run_stop_flag.hpp"
 #include "tools/files/exit_codes.hpp"
+#include "tools/files/tool_error.hpp"
 #include "tools/panel/panel_display.hpp"
 
 namespace bladefit {
@@ -26,11 +27,9 @@ int show_panel(const std::string& address) {
   }
   const StopFlag stop;
   PanelDisplay display(PanelClient(host, port));
-  // Later losses are mended by themselves: the host may be started again.
-  if (const std::string error = display.turn(); !error.empty()) {
-    fmt::print(stderr, "bladefit: {}\n", error);
-    return kDeviceFailure;
-  }
+  // The display recovers from later losses by itself: the host may be started again.
+  display.turn();
+  if (display.failure()) throw ToolError(display.failure());
   while (!stop.requested()) {
     display.turn();
     std::this_thread::sleep_for(kPause);

@@ -173,7 +173,7 @@ void run_reproduce(const ReproduceFlags& flags) {
   }
   std::fwrite(json.data(), 1, json.size(), stdout);
   if (std::fflush(stdout) != 0) {
-    throw ToolError("standard output: cannot write the figures", ToolError::Kind::io_failure);
+    throw ToolError("standard output: cannot write the figures", ToolError::Kind::device);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "drivers/make_source.hpp"
+#include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
 #include "tools/batch/batch_fit.hpp"
 #include "tools/commands/design_notes.hpp"
@@ -51,12 +52,10 @@ class Notices {
   std::vector<std::string> waiting_;
 };
 
-int exit_code_of(const HostError& error) { return error.fault == Fault::bad_input ? kBadInput : kDeviceFailure; }
+/// Says it and goes on: what was stored before it is still reported on.
+void report(const Failure& failure) { fmt::print(stderr, "bladefit: {}\n", failure.message); }
 
-int fail(const HostError& error) {
-  fmt::print(stderr, "bladefit: {}\n", error.message);
-  return exit_code_of(error);
-}
+int exit_code_of(const Failure& failure) { return ToolError(failure).exit_code(); }
 
 /// The panel of this session as this machine reaches it.
 PanelClient own_panel(const PanelServerSettings& settings, std::uint16_t port) {
@@ -97,15 +96,15 @@ void write_copy(const std::string& path, const std::string& json) {
   }
   std::fwrite(json.data(), 1, json.size(), stdout);
   if (std::fflush(stdout) != 0) {
-    throw ToolError("standard output: cannot write the result", ToolError::Kind::io_failure);
+    throw ToolError("standard output: cannot write the result", ToolError::Kind::device);
   }
 }
 
 /// Writes what the session came to, also after a fault: then of the points stored before it.
 int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words) {
-  if (session.error) static_cast<void>(fail(session.error));
+  if (session.error) report(session.error);
   // A session that was refused is not this run's to report on.
-  const bool refused = session.error.fault == Fault::bad_input;
+  const bool refused = session.error.kind == Failure::Kind::bad_input;
   if (session.error && (refused || session.points.empty())) return exit_code_of(session.error);
   if (!session.refused.empty()) {
     fmt::print(stderr,
@@ -138,7 +137,7 @@ int run(const RunFlags& flags) {
   Notices notices(plan.headless);
   const std::unique_ptr<ProbeSource> source = make_source(plan.source);
   Host host(plan.host, plan.image, *source, [&notices](const std::string& line) { notices.add(line); });
-  if (const HostError error = host.start()) return fail(error);
+  if (const Failure failure = host.start()) throw ToolError(failure);
   fmt::print(words, "Points from {}, session in {}, panel at {}:{}\n", source_name(plan.source),
              plan.host.session_directory, plan.host.panel.host, host.panel_port());
   std::fflush(words);
@@ -157,7 +156,7 @@ void add_session_options(CLI::App& command, RunFlags& flags) {
   command.add_option("--config", flags.config,
                      "session TOML (see config/session.toml); options given here win over it");
   text("--design", session.design, "design: .igs .iges .stp .step, or .bfd from `bladefit compile`");
-  text("--source", session.source, "modbus-tcp://HOST:PORT, modbus-rtu:DEVICE, serial:DEVICE or replay:FILE.csv");
+  text("--source", session.source, source_uri_forms().c_str());
   text("--session", session.session, "folder of the journal and the results; a session in it is resumed");
   command.add_option("--panel", flags.panel, "HOST:PORT to serve the panel at (default 127.0.0.1:1503; port 0: any)");
   command.add_flag_callback(

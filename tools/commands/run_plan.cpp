@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "config/device_settings.hpp"
+#include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
+#include "firmware_bridge/host/panel/panel_address.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/results/session_report.hpp"
 
@@ -28,7 +30,7 @@ void over(std::optional<Value>& target, const std::optional<Value>& flag) {
 SessionSettings merged_session(const RunFlags& flags) {
   SessionSettings session;
   if (!flags.config.empty()) {
-    if (const ConfigError error = load_session(flags.config, session)) throw ToolError(error.message);
+    if (const Failure error = load_session(flags.config, session)) throw ToolError(error);
   }
   over(session.design, flags.session.design);
   over(session.source, flags.session.source);
@@ -42,19 +44,19 @@ SessionSettings merged_session(const RunFlags& flags) {
 /// `flag` is that of --units, which wins over the units that a device file gives for its recording.
 SourceSettings plan_source(const SessionSettings& session, const std::optional<DesignUnit>& flag, double mm_per_unit) {
   SourceSettings source;
-  source.replay.mm_per_unit = mm_per_unit;
   if (session.device) {
-    if (const ConfigError error = load_device(*session.device, source)) throw ToolError(error.message);
+    if (const Failure error = load_device(*session.device, source)) throw ToolError(error);
   }
   if (session.source) {
-    if (const std::string error = apply_source_uri(*session.source, source); !error.empty()) throw ToolError(error);
+    if (const Failure failure = apply_source_uri(*session.source, source)) throw ToolError(failure);
   }
-  if (source.kind == SourceKind::none) {
+  if (protocol_of(source) == nullptr) {
     throw ToolError(
         "no source is given; name one with --source, for example modbus-tcp://192.168.0.10:502, or in the "
         "session file");
   }
-  if (flag) source.replay.mm_per_unit = mm_per_unit;
+  auto* const replay = std::get_if<ReplaySettings>(&source);
+  if (replay != nullptr && (flag || !replay->mm_per_unit)) replay->mm_per_unit = mm_per_unit;
   return source;
 }
 
@@ -71,7 +73,7 @@ PanelServerSettings plan_panel(const PanelSettings& file, const std::string& fla
 }
 
 /// A folder of its own for every session that has no name, so that none is resumed by accident.
-std::string fresh_session_name() { return fmt::format("session-{:%Y%m%d-%H%M%S}", fmt::localtime(std::time(nullptr))); }
+std::string new_session_name() { return fmt::format("session-{:%Y%m%d-%H%M%S}", fmt::localtime(std::time(nullptr))); }
 
 std::chrono::milliseconds idle_of(const SessionSettings& session) {
   const double seconds = session.until_idle.value_or(0);
@@ -88,11 +90,13 @@ void check_outputs(const RunFlags& flags, const SessionSettings& session, const 
   const std::filesystem::path copy(flags.json == "-" ? "" : flags.json);
   refuse_overwriting(copy, "journal of the session", folder / kJournalFile);
   refuse_overwriting(copy, "verdicts of the session", folder / kVerdictsFile);
-  const std::array<std::pair<const char*, std::string>, 5> inputs{{{"design", session.design.value_or("")},
-                                                                   {"session file", flags.config},
-                                                                   {"device file", session.device.value_or("")},
-                                                                   {"start pairs", session.fit.start.value_or("")},
-                                                                   {"recording", plan.source.replay.file}}};
+  const auto* const replay = std::get_if<ReplaySettings>(&plan.source);
+  const std::array<std::pair<const char*, std::string>, 5> inputs{
+      {{"design", session.design.value_or("")},
+       {"session file", flags.config},
+       {"device file", session.device.value_or("")},
+       {"start pairs", session.fit.start.value_or("")},
+       {"recording", replay != nullptr ? replay->file : ""}}};
   for (const auto& [what, input] : inputs) {
     refuse_overwriting(copy, what, input);
     for (const char* name : {kJournalFile, kVerdictsFile, kResultFile}) refuse_overwriting(folder / name, what, input);
@@ -118,10 +122,10 @@ RunPlan plan_run(const RunFlags& flags) {
   // The screen would mix with the result.
   plan.headless = session.headless.value_or(false) || plan.json == "-";
   plan.host.localizer = plan.fit.localizer;
-  plan.host.session_directory = session.session.value_or(fresh_session_name());
+  plan.host.session_directory = session.session.value_or(new_session_name());
   plan.host.panel = plan_panel(session.panel, flags.panel);
   plan.host.idle = idle_of(session);
-  const bool recording = plan.source.kind == SourceKind::replay;
+  const bool recording = std::holds_alternative<ReplaySettings>(plan.source);
   plan.host.end_when_finished = recording || plan.headless || session.until_idle.has_value();
   check_outputs(flags, session, plan);
   return plan;

@@ -120,7 +120,7 @@ SamplePlan plan_samples(const SampleFlags& flags, const DesignImage& design) {
   const double mm = mm_per_unit(unit_of(flags, design));
   parse_grid(flags, plan);
   ParameterWindow window;
-  if (const ConfigError error = parse_window(flags.window, window)) fail("--window", flags.window, error.message);
+  if (const Failure error = parse_window(flags.window, window)) fail("--window", flags.window, error.message);
   plan.low = window.low;
   plan.high = window.high;
   plan.lines_along_v = flags.along == "v";

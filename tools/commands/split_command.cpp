@@ -117,7 +117,7 @@ struct UsedRows {
 
 UsedRows find_used_rows(const SplitFlags& flags, DesignUnit unit, const std::vector<PatchWindow>& windows) {
   const PointsFile file = read_points_csv(flags.points, mm_per_unit(unit));
-  if (!file.error.empty()) throw ToolError(file.error);
+  if (file.error) throw ToolError(file.error);
   // Without directions the side of the material plays no part, so that a design that does not tell it will do.
   const OutwardOption outward = parse_outward(flags.outward);
   const bool either = outward == OutwardOption::automatic && !file.has_approach;

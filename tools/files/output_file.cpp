@@ -36,7 +36,7 @@ std::filesystem::path place_of(const std::filesystem::path& path) {
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
   throw ToolError(fmt::format("{}: cannot be written: {}; check folder, permissions and free space", path.string(),
                               std::generic_category().message(error)),
-                  ToolError::Kind::io_failure);
+                  ToolError::Kind::device);
 }
 
 /// Writes and syncs all of `content`; returns 0 or the error of the operating system.

@@ -8,14 +8,14 @@ namespace bladefit {
 /// moved in place by commit(). Without commit() nothing is left behind.
 class OutputFile {
  public:
-  /// Writes `content`. Throws ToolError (io_failure) where that fails, and bad_input where `path` is something else
+  /// Writes `content`. Throws ToolError (device) where that fails, and bad_input where `path` is something else
   /// than a regular file or a new name.
   OutputFile(const std::filesystem::path& path, std::string_view content);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Moves the content in place of what stood there. Throws ToolError (io_failure).
+  /// Moves the content in place of what stood there. Throws ToolError (device).
   void commit();
 
  private:

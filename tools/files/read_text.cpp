@@ -30,8 +30,7 @@ std::string read_text(const std::filesystem::path& path, std::string_view what) 
   std::ifstream stream(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.is_open() || stream.bad()) {
-    throw ToolError(fmt::format("{}: cannot be read; check its permissions", path.string()),
-                      ToolError::Kind::io_failure);
+    throw ToolError(fmt::format("{}: cannot be read; check its permissions", path.string()), ToolError::Kind::device);
   }
   return text;
 }

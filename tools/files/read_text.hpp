@@ -9,7 +9,7 @@ namespace bladefit {
 std::string lower_extension(const std::filesystem::path& path);
 
 /// The whole file; `what` says in messages what is in it. Throws ToolError: bad_input where it does not exist or is a
-/// folder, io_failure where reading fails.
+/// folder, `device` where reading fails.
 std::string read_text(const std::filesystem::path& path, std::string_view what = "design");
 
 }  // namespace bladefit

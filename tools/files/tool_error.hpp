@@ -2,26 +2,27 @@
 #include <stdexcept>
 #include <string>
 
+#include "drivers/source/failure.hpp"
 #include "tools/files/exit_codes.hpp"
 
 namespace bladefit {
 
-/// Why a design could not be read, compiled or written. what() is one line that names the file, the entity, line or
-/// field, and the mend.
+/// A Failure on its way up: what ends a command. what() is one line that names the file, the entity, line or field, and
+/// the fix.
 class ToolError : public std::runtime_error {
  public:
-  enum class Kind {
-    bad_input,   ///< wrong use or wrong content
-    io_failure,  ///< the operating system refused to read or write
-  };
+  using Kind = Failure::Kind;
 
+  /// bad_input: wrong use or wrong content; `device`: the operating system refused to read or write.
   explicit ToolError(const std::string& message, Kind kind = Kind::bad_input)
       : std::runtime_error(message), kind_(kind) {}
 
+  explicit ToolError(const Failure& failure) : ToolError(failure.message, failure.kind) {}
+
   [[nodiscard]] Kind kind() const { return kind_; }
 
-  /// Exit code of the command line: 2 bad input, 3 failed input or output.
-  [[nodiscard]] int exit_code() const { return kind_ == Kind::io_failure ? kDeviceFailure : kBadInput; }
+  /// What the command line returns.
+  [[nodiscard]] int exit_code() const { return kind_ == Kind::device ? kDeviceFailure : kBadInput; }
 
  private:
   Kind kind_;

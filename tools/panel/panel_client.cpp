@@ -21,27 +21,29 @@ void PanelClient::Closer::operator()(_modbus* context) const {
 
 std::string PanelClient::address() const { return fmt::format("{}:{}", host_, port_); }
 
-std::string PanelClient::connect() {
+Failure PanelClient::connect() {
   context_.reset(modbus_new_tcp_pi(host_.c_str(), std::to_string(port_).c_str()));
-  if (!context_) return fmt::format("{}: is no address; use HOST:PORT, for example 127.0.0.1:1503", address());
+  if (!context_)
+    return device_failure(fmt::format("{}: is no address; use HOST:PORT, for example 127.0.0.1:1503", address()));
   modbus_set_response_timeout(context_.get(), 0, kReplyTimeout_us);
   if (modbus_set_slave(context_.get(), kUnit) == 0 && modbus_connect(context_.get()) == 0) return {};
   const int reason = errno;
   context_.reset();
-  return fmt::format("{}: no panel answers there ({}); start `bladefit run`, or name its --panel with --connect",
-                     address(), modbus_strerror(reason));
+  return device_failure(
+      fmt::format("{}: no panel answers there ({}); start `bladefit run`, or name its --panel with --connect",
+                  address(), modbus_strerror(reason)));
 }
 
-std::string PanelClient::read(PanelState& state) {
+Failure PanelClient::read(PanelState& state) {
   if (!context_) {
-    if (std::string error = connect(); !error.empty()) return error;
+    if (Failure error = connect()) return error;
   }
   std::array<std::uint16_t, kPanelRegisters> registers{};
   if (modbus_read_input_registers(context_.get(), 0, kPanelRegisters, registers.data()) != kPanelRegisters) {
     const int reason = errno;
     context_.reset();
-    return fmt::format("{}: the panel does not answer ({}); check that it is a bladefit panel", address(),
-                       modbus_strerror(reason));
+    return device_failure(fmt::format("{}: the panel does not answer ({}); check that it is a bladefit panel",
+                                      address(), modbus_strerror(reason)));
   }
   std::array<std::uint16_t, kExtensionRegisters> extension{};
   const bool extended = modbus_read_input_registers(context_.get(), kPlaceBase, static_cast<int>(extension.size()),
@@ -50,8 +52,9 @@ std::string PanelClient::read(PanelState& state) {
       extended ? std::span<const std::uint16_t>(extension) : std::span<const std::uint16_t>();
   if (decode_panel(registers, known, state)) return {};
   context_.reset();
-  return fmt::format("{}: panel map of version {}, this program reads version {}; use the bladefit of that host",
-                     address(), registers[0], kPanelMapVersion);
+  return device_failure(
+      fmt::format("{}: panel map of version {}, this program reads version {}; use the bladefit of that host",
+                  address(), registers[0], kPanelMapVersion));
 }
 
 }  // namespace bladefit

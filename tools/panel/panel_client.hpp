@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "drivers/source/failure.hpp"
 #include "firmware_bridge/host/panel/panel_map.hpp"
 
 struct _modbus;
@@ -14,10 +15,9 @@ class PanelClient {
  public:
   PanelClient(std::string host, std::uint16_t port) : host_(std::move(host)), port_(port) {}
 
-  /// Connects where it is not connected, and reads the whole map. Returns why that failed, in one line; empty = the
-  /// state was read. After a failure the connection is closed, and the next call connects anew. Takes at most about a
-  /// second.
-  [[nodiscard]] std::string read(PanelState& state);
+  /// Connects where it is not connected, and reads the whole map. After a failure the connection is closed, and the
+  /// next call connects again. Takes at most about a second.
+  [[nodiscard]] Failure read(PanelState& state);
 
   [[nodiscard]] std::string address() const;
 
@@ -25,7 +25,7 @@ class PanelClient {
   struct Closer {
     void operator()(_modbus* context) const;
   };
-  [[nodiscard]] std::string connect();
+  [[nodiscard]] Failure connect();
 
   std::string host_;
   std::uint16_t port_;

@@ -48,23 +48,22 @@ PanelDisplay::~PanelDisplay() {
   std::fflush(stdout);
 }
 
-std::string PanelDisplay::turn() {
+void PanelDisplay::turn() {
   const Clock::time_point now = Clock::now();
-  if (now - last_turn_ < kTurn) return error_;
+  if (now - last_turn_ < kTurn) return;
   last_turn_ = now;
-  error_ = client_.read(view_.state);
-  view_.connected = error_.empty();
+  failure_ = client_.read(view_.state);
+  view_.connected = !failure_;
   if (view_.connected) {
     view_.known = true;
     measure_rate(now);
   }
-  if (!view_.known) return error_;
+  if (!view_.known) return;
   if (terminal_) {
     show_screen();
   } else {
     show_line(now);
   }
-  return error_;
 }
 
 void PanelDisplay::measure_rate(Clock::time_point now) {

@@ -1,7 +1,6 @@
 #pragma once
 #include <chrono>
 #include <deque>
-#include <string>
 #include <utility>
 
 #include "tools/panel/panel_client.hpp"
@@ -18,9 +17,12 @@ class PanelDisplay {
   PanelDisplay(const PanelDisplay&) = delete;
   PanelDisplay& operator=(const PanelDisplay&) = delete;
 
-  /// Reads the panel and shows what it says, or that it does not answer. Returns the error; empty = none. Does nothing
-  /// when the last turn was less than a fifth of a second ago.
-  std::string turn();
+  /// Reads the panel and shows what it says, or that it does not answer. Does nothing when the last turn was less
+  /// than a fifth of a second ago.
+  void turn();
+
+  /// Why the last turn that read the panel could not.
+  [[nodiscard]] const Failure& failure() const { return failure_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -32,7 +34,7 @@ class PanelDisplay {
   ScreenView view_;
   bool terminal_;
   bool screen_taken_ = false;
-  std::string error_;
+  Failure failure_;
   Clock::time_point last_turn_{}, last_line_{};
   std::deque<std::pair<Clock::time_point, std::uint32_t>> counts_;  // of the last seconds
 };

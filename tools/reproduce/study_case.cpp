@@ -80,7 +80,7 @@ std::vector<ProbePoint> read_subset_points(const StudyCase& study, const std::st
     throw ToolError(fmt::format("{}: case.json names no subset {}; take the data as it came", study.name, subset));
   }
   PointsFile file = read_points_csv(found->second.string(), study.plan.mm_per_unit);
-  if (!file.error.empty()) throw ToolError(file.error);
+  if (file.error) throw ToolError(file.error);
   return std::move(file.points);
 }
 

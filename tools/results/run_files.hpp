@@ -11,7 +11,7 @@ namespace bladefit {
 [[nodiscard]] std::string verdicts_csv(const SessionResult& result);
 
 /// Writes verdicts.csv and result.json into the session folder, each as a whole or not at all, and returns their paths.
-/// Throws ToolError (io_failure).
+/// Throws ToolError (device).
 std::vector<std::string> write_session_files(const std::string& session_directory, const SessionResult& result,
                                              const std::string& json);
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "drivers/text/read_file.hpp"
-#include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "tools/files/tool_error.hpp"
 #include "tools/results/result_file.hpp"
 #include "tools/results/verdicts_file.hpp"
@@ -28,7 +28,7 @@ void check_directory(const std::string& directory) {
 
 JournalContent read_recording(const fs::path& folder) {
   JournalContent journal;
-  if (const HostError error = read_journal(folder / kJournalFile, journal)) throw ToolError(error.message);
+  if (const Failure error = read_journal(folder / kJournalFile, journal)) throw ToolError(error.message);
   if (journal.exists) return journal;
   throw ToolError(fmt::format("{}: holds no {} of a session; give the folder that `bladefit run --session` wrote",
                               folder.string(), kJournalFile));
@@ -53,8 +53,9 @@ std::string read_part(const fs::path& folder, const char* name, const JournalCon
                     path.string(), points));
   }
   std::string text;
-  if (const std::string reason = read_file(path, kMaxFileSize, text); !reason.empty()) {
-    throw ToolError(fmt::format("{}: cannot be read ({}); check the rights of the file", path.string(), reason));
+  if (const Failure failure = read_file(path, kMaxFileSize, text)) {
+    throw ToolError(
+        fmt::format("{}: cannot be read ({}); check the rights of the file", path.string(), failure.message));
   }
   return text;
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "tools/files/tool_error.hpp"
 #include "tools/simulate/check_sum.hpp"
-#include "tools/simulate/failure.hpp"
 
 namespace bladefit::simulate {
 namespace {
@@ -66,7 +66,7 @@ RecordRegisters encode_record(std::uint32_t sequence, const MachinePoint& point)
 ModbusMap::ModbusMap(const Machine& machine, std::uint16_t version) : capacity_(machine.settings().capacity) {
   const unsigned input_registers = cmm_map_v1::kRecordsRegister + capacity_ * cmm_map_v1::kRecordSize;
   mapping_.reset(modbus_mapping_new_start_address(0, 0, 0, 0, 0, cmm_map_v1::kHoldingSize, 0, input_registers));
-  if (!mapping_) throw Failure(kExitDevice, "no memory for the register map; give a smaller --capacity");
+  if (!mapping_) throw ToolError("no memory for the register map; give a smaller --capacity", ToolError::Kind::device);
   const std::span<std::uint16_t> registers = header();
   registers[cmm_map_v1::kVersionRegister] = version;
   registers[cmm_map_v1::kCapacityRegister] = static_cast<std::uint16_t>(capacity_);

@@ -23,7 +23,7 @@ void put_uint32(std::span<std::uint16_t> registers, std::uint32_t value);
 /// The machine as registers of CMM map v1.
 class ModbusMap {
  public:
-  /// `version` is what register 0 says. Throws Failure (device) when there is no memory for the map.
+  /// `version` is what register 0 says. Throws ToolError (device) when there is no memory for the map.
   ModbusMap(const Machine& machine, std::uint16_t version);
 
   /// Writes the records that have become available, then the header that announces them.

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "tools/simulate/failure.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit::simulate {
 namespace {
@@ -37,7 +37,7 @@ ModbusResponder::ModbusResponder(ModbusContext context, Machine& machine, std::u
       log_(log) {
   std::array<int, 2> pair{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, pair.data()) != 0) {
-    throw Failure(kExitDevice, "no socket left for the simulated machine; close other programs");
+    throw ToolError("no socket left for the simulated machine; close other programs", ToolError::Kind::device);
   }
   capture_in_ = Descriptor(pair[0]);
   capture_out_ = Descriptor(pair[1]);

@@ -31,7 +31,7 @@ struct ModbusAnswer {
 /// answers into a pair of sockets of ours, so that they can be lost, held back or doubled.
 class ModbusResponder {
  public:
-  /// Throws Failure (device).
+  /// Throws ToolError (device).
   ModbusResponder(ModbusContext context, Machine& machine, std::uint16_t version, const FaultSettings& faults,
                   bool frames_are_numbered, const Log& log);
 

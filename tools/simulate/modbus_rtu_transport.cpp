@@ -1,6 +1,6 @@
 #include "tools/simulate/modbus_rtu_transport.hpp"
 
-#include "tools/simulate/failure.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit::simulate {
 namespace {
@@ -11,7 +11,8 @@ constexpr int kBaud = 115200;
 ModbusContext make_context(const std::string& device, int unit) {
   ModbusContext context(modbus_new_rtu(device.c_str(), kBaud, 'N', 8, 1));
   if (!context || modbus_set_slave(context.get(), unit) != 0) {
-    throw Failure(kExitDevice, fmt::format("{}: cannot serve unit {}: {}", device, unit, modbus_strerror(errno)));
+    throw ToolError(fmt::format("{}: cannot serve unit {}: {}", device, unit, modbus_strerror(errno)),
+                    ToolError::Kind::device);
   }
   return context;
 }

@@ -8,7 +8,7 @@ namespace bladefit::simulate {
 /// The machine as a Modbus RTU server at the end of a pseudo terminal.
 class ModbusRtuTransport : public Transport {
  public:
-  /// `link` as in PseudoTerminal; `unit` is the server's address on the line, 1..247. Throws Failure (device).
+  /// `link` as in PseudoTerminal; `unit` is the server's address on the line, 1..247. Throws ToolError (device).
   ModbusRtuTransport(Machine& machine, const std::string& link, int unit, std::uint16_t map_version,
                      const FaultSettings& faults, const Log& log);
 

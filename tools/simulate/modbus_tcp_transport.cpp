@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "tools/simulate/failure.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit::simulate {
 namespace {
@@ -28,12 +28,12 @@ ModbusTcpTransport::ModbusTcpTransport(Machine& machine, int port, std::uint16_t
                                        const FaultSettings& faults, const Log& log)
     : log_(log) {
   ModbusContext context(modbus_new_tcp(kLoopback, port));
-  if (!context) throw Failure(kExitDevice, fmt::format("--port {}: {}", port, modbus_strerror(errno)));
+  if (!context) throw ToolError(fmt::format("--port {}: {}", port, modbus_strerror(errno)), ToolError::Kind::device);
   listener_ = Descriptor(modbus_tcp_listen(context.get(), static_cast<int>(kMostReaders)));
   if (!listener_) {
-    throw Failure(kExitDevice,
-                  fmt::format("--port {}: cannot listen on {}: {}; give another port, or 0 for any free one", port,
-                              kLoopback, std::strerror(errno)));
+    throw ToolError(fmt::format("--port {}: cannot listen on {}: {}; give another port, or 0 for any free one", port,
+                                kLoopback, std::strerror(errno)),
+                    ToolError::Kind::device);
   }
   port_ = bound_port(listener_.get());
   responder_.emplace(std::move(context), machine, map_version, faults, true, log);

@@ -9,7 +9,7 @@ namespace bladefit::simulate {
 /// The machine as a Modbus TCP server on the loopback address, for several readers at once.
 class ModbusTcpTransport : public Transport {
  public:
-  /// `port` 0 = any free one. Throws Failure (device) when the port cannot be had.
+  /// `port` 0 = any free one. Throws ToolError (device) when the port cannot be had.
   ModbusTcpTransport(Machine& machine, int port, std::uint16_t map_version, const FaultSettings& faults,
                      const Log& log);
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-#include "tools/simulate/failure.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit::simulate {
 namespace {
@@ -25,7 +25,7 @@ struct Place {
 };
 
 [[noreturn]] void refuse(const Place& place, std::string_view reason) {
-  throw Failure(kExitBadInput, fmt::format("{}:{}: {}", place.file, place.line, reason));
+  throw ToolError(fmt::format("{}:{}: {}", place.file, place.line, reason));
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -112,7 +112,7 @@ MachinePoint read_point(std::string_view line, const std::vector<std::size_t>& c
 
 std::vector<MachinePoint> read_points_file(const std::string& path, double mm_per_unit) {
   std::ifstream file(path);
-  if (!file) throw Failure(kExitBadInput, fmt::format("{}: cannot be read; give an existing points file", path));
+  if (!file) throw ToolError(fmt::format("{}: cannot be read; give an existing points file", path));
   std::optional<std::vector<std::size_t>> columns;
   std::vector<MachinePoint> points;
   Place place{path};
@@ -127,8 +127,8 @@ std::vector<MachinePoint> read_points_file(const std::string& path, double mm_pe
       columns = read_header(text, place);
     }
   }
-  if (file.bad()) throw Failure(kExitBadInput, fmt::format("{}: cannot be read to its end; give a points file", path));
-  if (points.empty()) throw Failure(kExitBadInput, fmt::format("{}: no point in the file; give at least one", path));
+  if (file.bad()) throw ToolError(fmt::format("{}: cannot be read to its end; give a points file", path));
+  if (points.empty()) throw ToolError(fmt::format("{}: no point in the file; give at least one", path));
   return points;
 }
 

@@ -15,7 +15,7 @@ struct MachinePoint {
 
 /// Reads a points file: a header that names the columns x, y, z and, where known, i, j, k and path, in any order;
 /// then one point a line. Positions are multiplied by `mm_per_unit`. Lines that start with # are skipped.
-/// Throws Failure (bad input) that names file, line and the mend.
+/// Throws ToolError (bad input) that names file, line and the fix.
 [[nodiscard]] std::vector<MachinePoint> read_points_file(const std::string& path, double mm_per_unit);
 
 }  // namespace bladefit::simulate

@@ -11,14 +11,15 @@
 #include <filesystem>
 #include <utility>
 
-#include "tools/simulate/failure.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit::simulate {
 namespace {
 
 [[noreturn]] void refuse(std::string_view what) {
-  throw Failure(kExitDevice, fmt::format("pseudo terminal: {}: {}; check that /dev/pts is mounted and has free entries",
-                                         what, std::strerror(errno)));
+  throw ToolError(fmt::format("pseudo terminal: {}: {}; check that /dev/pts is mounted and has free entries", what,
+                              std::strerror(errno)),
+                  ToolError::Kind::device);
 }
 
 }  // namespace
@@ -28,7 +29,8 @@ PseudoTerminal::PseudoTerminal(std::string link) : link_(std::move(link)) {
   const std::filesystem::file_status status = std::filesystem::symlink_status(link_, error);
   // A link is what a machine that was killed has left behind; anything else belongs to somebody.
   if (!link_.empty() && std::filesystem::exists(status) && !std::filesystem::is_symlink(status)) {
-    throw Failure(kExitDevice, fmt::format("--device {}: exists and is not a symbolic link; give another path", link_));
+    throw ToolError(fmt::format("--device {}: exists and is not a symbolic link; give another path", link_),
+                    ToolError::Kind::device);
   }
   open();
 }
@@ -63,15 +65,15 @@ void PseudoTerminal::open() {
 
 void PseudoTerminal::relink() const {
   // Renamed into place, so that a reader never finds the link missing.
-  const std::string fresh = fmt::format("{}.{}", link_, getpid());
+  const std::string replacement = fmt::format("{}.{}", link_, getpid());
   std::error_code error;
-  std::filesystem::remove(fresh, error);
-  std::filesystem::create_symlink(slave_, fresh, error);
-  if (!error) std::filesystem::rename(fresh, link_, error);
+  std::filesystem::remove(replacement, error);
+  std::filesystem::create_symlink(slave_, replacement, error);
+  if (!error) std::filesystem::rename(replacement, link_, error);
   if (error) {
-    throw Failure(kExitDevice,
-                  fmt::format("--device {}: cannot make the link: {}; give a path in a folder that can be written",
-                              link_, error.message()));
+    throw ToolError(fmt::format("--device {}: cannot make the link: {}; give a path in a folder that can be written",
+                                link_, error.message()),
+                    ToolError::Kind::device);
   }
 }
 

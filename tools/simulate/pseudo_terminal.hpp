@@ -9,14 +9,14 @@ namespace bladefit::simulate {
 /// The machine's end of a cable: the master of a pseudo terminal whose slave a reader opens like a serial port.
 class PseudoTerminal {
  public:
-  /// `link` is made a symbolic link to the slave; empty = none. Throws Failure (device).
+  /// `link` is made a symbolic link to the slave; empty = none. Throws ToolError (device).
   explicit PseudoTerminal(std::string link);
   ~PseudoTerminal();
   PseudoTerminal(const PseudoTerminal&) = delete;
   PseudoTerminal& operator=(const PseudoTerminal&) = delete;
 
   /// Pulls the cable out and plugs in another one under the same link: a reader that still has the old one open sees a
-  /// hang-up. Every reader gets a fresh terminal, because exclusive use and unread bytes would stay with the old one.
+  /// hang-up. Every reader gets a new terminal, because exclusive use and unread bytes would stay with the old one.
   void replace();
 
   [[nodiscard]] int descriptor() const { return master_.get(); }

@@ -18,7 +18,7 @@ namespace bladefit::simulate {
 /// The machine on a serial line: serial protocol v1 at the end of a pseudo terminal.
 class SerialTransport : public Transport {
  public:
-  /// `link` as in PseudoTerminal. Throws Failure (device).
+  /// `link` as in PseudoTerminal. Throws ToolError (device).
   SerialTransport(Machine& machine, const std::string& link, const FaultSettings& faults, const Log& log);
 
   [[nodiscard]] std::string address() const override { return "over a serial line on " + terminal_.path(); }

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <memory>
 
-#include "tools/simulate/failure.hpp"
+#include "tools/files/tool_error.hpp"
 #include "tools/simulate/modbus_rtu_transport.hpp"
 #include "tools/simulate/modbus_tcp_transport.hpp"
 #include "tools/simulate/serial_transport.hpp"
@@ -26,7 +26,7 @@ constexpr double kHighestRate = 1e6;
 constexpr auto kFarewell = std::chrono::seconds(1);  ///< what a reader gets to say stop after its last acknowledge
 
 void check(const SimulatorSettings& settings) {
-  const auto refuse = [](std::string_view line) { throw Failure(kExitBadInput, std::string(line)); };
+  const auto refuse = [](std::string_view line) { throw ToolError(std::string(line)); };
   if (!(settings.rate >= 0 && settings.rate <= kHighestRate)) {
     refuse(fmt::format("--rate {}: give 0 to {} points/s (0 = as fast as acknowledged)", settings.rate, kHighestRate));
   }
@@ -50,7 +50,7 @@ std::unique_ptr<Transport> make_transport(const SimulatorSettings& settings, con
     case SimulatorTransport::serial:
       return std::make_unique<SerialTransport>(machine, settings.device, faults, log);
   }
-  throw Failure(kExitBadInput, "--transport: give modbus-tcp, modbus-rtu or serial");
+  throw ToolError("--transport: give modbus-tcp, modbus-rtu or serial");
 }
 
 /// Waits until a descriptor is ready or `until` has come.
@@ -62,7 +62,7 @@ void wait(std::vector<pollfd>& events, std::optional<Clock::time_point> until) {
     timeout.tv_nsec = std::chrono::nanoseconds(left % std::chrono::seconds(1)).count();
   }
   if (ppoll(events.data(), events.size(), until ? &timeout : nullptr, nullptr) < 0 && errno != EINTR) {
-    throw Failure(kExitDevice, fmt::format("waiting for readers failed: {}", std::strerror(errno)));
+    throw ToolError(fmt::format("waiting for readers failed: {}", std::strerror(errno)), ToolError::Kind::device);
   }
 }
 
@@ -136,8 +136,8 @@ int run_simulator(const SimulatorSettings& settings) {
     simulate::FaultSettings defaults;
     defaults.seed = settings.seed.value_or(defaults.seed);
     simulate::Service(settings, simulate::parse_faults(settings.faults, defaults)).run();
-    return simulate::kExitDone;
-  } catch (const simulate::Failure& failure) {
+    return 0;
+  } catch (const ToolError& failure) {
     fmt::print(stderr, "simulate: {}\n", failure.what());
     return failure.exit_code();
   }

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "tools/simulate/failure.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit::simulate {
 
@@ -14,8 +14,7 @@ Stamps::Stamps(const std::string& path) {
   if (path.empty()) return;
   file_.reset(std::fopen(path.c_str(), "w"));
   if (!file_) {
-    throw Failure(kExitBadInput,
-                  fmt::format("--stamp {}: {}; give a path that can be written", path, std::strerror(errno)));
+    throw ToolError(fmt::format("--stamp {}: {}; give a path that can be written", path, std::strerror(errno)));
   }
 }
 

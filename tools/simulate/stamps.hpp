@@ -9,7 +9,7 @@ namespace bladefit::simulate {
 /// File of lines `sequence,nanoseconds`: when (CLOCK_MONOTONIC) each record became readable, to measure latencies.
 class Stamps {
  public:
-  /// Empty path = no file. Throws Failure (bad input) when it cannot be written.
+  /// Empty path = no file. Throws ToolError (bad input) when it cannot be written.
   explicit Stamps(const std::string& path);
 
   /// Notes that every record up to `available` can be read as of now. A record shown again keeps its first stamp.

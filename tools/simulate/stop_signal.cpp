@@ -2,7 +2,7 @@
 
 #include <sys/signalfd.h>
 
-#include "tools/simulate/failure.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit::simulate {
 
@@ -14,7 +14,7 @@ StopSignal::StopSignal() {
   sigprocmask(SIG_BLOCK, &stops, &before_);
   std::signal(SIGPIPE, SIG_IGN);
   descriptor_ = Descriptor(signalfd(-1, &stops, SFD_CLOEXEC | SFD_NONBLOCK));
-  if (!descriptor_) throw Failure(kExitDevice, "no descriptor left for signals; close other programs");
+  if (!descriptor_) throw ToolError("no descriptor left for signals; close other programs", ToolError::Kind::device);
 }
 
 StopSignal::~StopSignal() {

@@ -8,7 +8,7 @@ namespace bladefit::simulate {
 /// Turns SIGINT and SIGTERM into an event of a descriptor for as long as it lives, and ignores SIGPIPE.
 class StopSignal {
  public:
-  /// Throws Failure (device).
+  /// Throws ToolError (device).
   StopSignal();
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;

@@ -6,6 +6,13 @@ namespace {
 constexpr std::uint32_t kSettlePoints = 4096;
 constexpr int kMostSettleCalls = 20000;
 
+/// Of a fit that nobody watches.
+struct NoObserver {
+  void judged(const Verdict& /*verdict*/) const {}
+  void settled() const {}
+  void forgotten() const {}
+};
+
 }  // namespace
 
 bool FitStream::push(const ProbePoint& point, Verdict& verdict) {
@@ -26,7 +33,7 @@ bool FitStream::push(const ProbePoint& point, Verdict& verdict) {
 void FitStream::end_path() {
   if (!path_ended_) return;
   path_ended_ = false;
-  // A refinement starts its sweep over the stored points anew: cut short path after path it would never get to the
+  // A refinement starts its sweep over the stored points again: cut short path after path it would never get to the
   // later ones. With more points than the budget the sweeps of push() do the work.
   if (localizer_.fit().points > path_refine_points_) return;
   // Whatever is left to do is done by later pushes and by settle().
@@ -47,6 +54,12 @@ void FitStream::reset() {
   path_ = 0;
   path_ended_ = false;
   settled_ = true;
+}
+
+void FitStream::replay(std::span<const StreamEvent> events) {
+  reset();
+  for (const StreamEvent& event : events) follow(event, NoObserver());
+  settle();
 }
 
 }  // namespace bladefit

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "core/localizer.hpp"
 #include "firmware_bridge/host/threads/stream_event.hpp"
@@ -11,8 +12,8 @@ namespace bladefit {
 /// One thread owns it. No call allocates, locks or throws.
 class FitStream {
  public:
-  /// `path_refine_points`: how many stored points are projected anew at most when a path has ended; none are when there
-  /// are more points than that.
+  /// `path_refine_points`: how many stored points are projected again at most when a path has ended; none are when
+  /// there are more points than that.
   FitStream(Localizer& localizer, std::uint32_t path_refine_points)
       : localizer_(localizer), path_refine_points_(path_refine_points) {}
 
@@ -20,7 +21,7 @@ class FitStream {
   /// `rejected`. False for a sequence number that is not above the last one: nothing has changed.
   [[nodiscard]] bool push(const ProbePoint& point, Verdict& verdict);
 
-  /// To be called after every push, when the verdict is on its way: projects stored points anew when that point was
+  /// To be called after every push, when the verdict is on its way: projects stored points again when that point was
   /// the first of another path. It is apart from push() so that the verdict does not wait for it.
   void end_path();
 
@@ -28,6 +29,30 @@ class FitStream {
   void settle();
 
   void reset();
+
+  /// Feeds one event of a stream: the only place that says what an event does to the fit. The observer hears at once:
+  /// judged(verdict) of a point, before the work at the end of a path, settled() after the end of the program,
+  /// forgotten() after a reset.
+  template <typename Observer>
+  void follow(const StreamEvent& event, Observer&& observer) {
+    switch (event.kind) {
+      case EventKind::point: {
+        Verdict verdict;
+        if (!push(event.point, verdict)) return;
+        observer.judged(verdict);
+        return end_path();
+      }
+      case EventKind::finished:
+        settle();
+        return observer.settled();
+      case EventKind::reset:
+        reset();
+        return observer.forgotten();
+    }
+  }
+
+  /// The fit of exactly these events, settled.
+  void replay(std::span<const StreamEvent> events);
 
   [[nodiscard]] Localizer& localizer() { return localizer_; }
 

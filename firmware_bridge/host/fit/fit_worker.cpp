@@ -1,8 +1,5 @@
 #include "firmware_bridge/host/fit/fit_worker.hpp"
 
-#include <algorithm>
-#include <chrono>
-
 namespace bladefit {
 namespace {
 
@@ -17,62 +14,55 @@ void FitWorker::run() {
   publish_figures();
   FitInput input;
   while (true) {
-    if (!shared_.to_fit.pop(input)) {
+    if (!shared_.to_fit.ring.pop(input)) {
       if (events_since_figures_ > 0) publish_figures();
-      shared_.fit_wakeup.wait(kWait);
+      shared_.to_fit.wakeup.wait(kWait);
       continue;
     }
     if (input.end) break;
-    judge(input.event);
+    take(input.event);
     if (++events_since_figures_ >= kEventsBetweenFigures) publish_figures();
   }
-  settle();
+  stream_.settle();
+  settled();
   publish_figures();
   shared_.fit_done.store(true);
-  shared_.publication_wakeup.signal();
+  shared_.to_publication.wakeup.signal();
 }
 
-void FitWorker::judge(const StreamEvent& event) {
-  switch (event.kind) {
-    case EventKind::point:
-      judge_point(event.point);
-      break;
-    case EventKind::finished:
-      settle();
-      break;
-    case EventKind::reset:
-      stream_.reset();
-      stored_sequences_.clear();
-      listed_.fill(0);
-      publish({true, {}});
-      break;
-  }
+void FitWorker::take(const StreamEvent& event) {
+  taken_at_ = Clock::now();
+  stream_.follow(event, *this);
   publish_revisions();
 }
 
-void FitWorker::judge_point(const ProbePoint& point) {
-  Verdict verdict;
-  const auto before = std::chrono::steady_clock::now();
-  const bool judged = stream_.push(point, verdict);
-  latency_.add(std::chrono::nanoseconds(std::chrono::steady_clock::now() - before).count());
-  if (!judged) return;
+void FitWorker::judged(const Verdict& verdict) {
+  latency_.add(std::chrono::nanoseconds(Clock::now() - taken_at_).count());
   const bool stored = verdict.state != PointState::rejected && stored_sequences_.size() < stored_sequences_.capacity();
   if (stored) stored_sequences_.push_back(verdict.sequence);
   publish({false, verdict});
-  shared_.publication_wakeup.signal();
-  stream_.end_path();
+  shared_.to_publication.wakeup.signal();
+}
+
+// A revision comes out when the state or the action changes. Now that the pose has come to rest the distances are
+// reported again as well.
+void FitWorker::settled() {
+  publish_revisions();
+  report_again(stored_sequences_);
+  shared_.to_publication.wakeup.signal();
+}
+
+void FitWorker::forgotten() {
+  stored_sequences_.clear();
+  alarms_.clear();
+  publish({true, {}});
 }
 
 void FitWorker::publish(const FitOutput& output) {
-  const Verdict& verdict = output.verdict;
-  const bool listed = verdict.state == PointState::out && verdict.region == Region::leading_edge;
-  if (listed && std::ranges::find(listed_, verdict.sequence) == listed_.end()) {
-    listed_[listed_next_] = verdict.sequence;
-    listed_next_ = (listed_next_ + 1) % listed_.size();
-  }
-  while (!shared_.to_publication.push(output)) {
-    shared_.publication_wakeup.signal();
-    shared_.fit_wakeup.wait(kRoomWait);
+  alarms_.note(output.verdict);
+  while (!shared_.to_publication.ring.push(output)) {
+    shared_.to_publication.wakeup.signal();
+    shared_.to_fit.wakeup.wait(kRoomWait);
   }
 }
 
@@ -83,35 +73,22 @@ void FitWorker::publish_revisions() {
     publish(output);
     any = true;
   }
-  if (any) shared_.publication_wakeup.signal();
+  if (any) shared_.to_publication.wakeup.signal();
 }
 
-// A revision comes out when the state or the action changes. Now that the pose has come to rest the distances are told
-// anew as well.
-void FitWorker::settle() {
-  stream_.settle();
-  publish_revisions();
+void FitWorker::report_again(std::span<const std::uint32_t> sequences) {
   Verdict verdict;
-  for (const std::uint32_t sequence : stored_sequences_) {
-    if (stream_.localizer().verdict_of(sequence, verdict) == Status::ok) publish({false, verdict});
-  }
-  shared_.publication_wakeup.signal();
-}
-
-// The distances in the panel's list follow the fit also while the verdicts stay the same.
-void FitWorker::publish_listed() {
-  Verdict verdict;
-  for (const std::uint32_t sequence : listed_) {
+  for (const std::uint32_t sequence : sequences) {
     if (sequence != 0 && stream_.localizer().verdict_of(sequence, verdict) == Status::ok) publish({false, verdict});
   }
 }
 
 void FitWorker::publish_figures() {
-  publish_listed();
+  report_again(alarms_.sequences());
   constexpr double kPercentile = 0.99;
   shared_.fit_figures.publish({stream_.localizer().fit(), latency_.quantile_us(kPercentile)});
   events_since_figures_ = 0;
-  shared_.publication_wakeup.signal();
+  shared_.to_publication.wakeup.signal();
 }
 
 }  // namespace bladefit

@@ -1,9 +1,11 @@
 #pragma once
-#include <array>
+#include <chrono>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "firmware_bridge/host/fit/fit_stream.hpp"
+#include "firmware_bridge/host/fit/recent_alarms.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
 #include "firmware_bridge/host/threads/latency_histogram.hpp"
 
@@ -23,22 +25,26 @@ class FitWorker {
   void run();
 
  private:
-  void judge(const StreamEvent& event);
-  void judge_point(const ProbePoint& point);
+  using Clock = std::chrono::steady_clock;
+  friend class FitStream;  // Its follow() reports to the next three.
+
+  void judged(const Verdict& verdict);
+  void settled();
+  void forgotten();
+
+  void take(const StreamEvent& event);
   void publish(const FitOutput& output);
   void publish_revisions();
-  void settle();
   void publish_figures();
-  void publish_listed();
+  void report_again(std::span<const std::uint32_t> sequences);
 
   FitStream stream_;
   HostShared& shared_;
   LatencyHistogram latency_;
-  std::vector<std::uint32_t> stored_sequences_;  // never grows beyond what was reserved
+  std::vector<std::uint32_t> stored_sequences_;  ///< never grows beyond what was reserved
+  RecentAlarms alarms_;
   std::uint32_t events_since_figures_ = 0;
-  // The leading-edge points that were told as out last: those that panels list.
-  std::array<std::uint32_t, 16> listed_{};
-  std::size_t listed_next_ = 0;
+  Clock::time_point taken_at_{};  ///< when the event under way came out of the ring
 };
 
 }  // namespace bladefit

@@ -32,20 +32,22 @@ Journal::~Journal() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-HostError Journal::failure(const char* what) const {
-  return {Fault::device, fmt::format("{}: {} ({}); free the disk or name another session folder, then start again: the "
-                                     "device still holds what was not stored",
-                                     path_, what, std::strerror(errno))};
+Failure Journal::failure(const char* what) const {
+  return device_failure(
+      fmt::format("{}: {} ({}); free the disk or name another session folder, then start again: the "
+                  "device still holds what was not stored",
+                  path_, what, std::strerror(errno)));
 }
 
-HostError Journal::open(const std::string& path) {
+Failure Journal::open(const std::string& path) {
   path_ = path;
   descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor_ < 0) return failure("cannot be opened for writing");
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    return {Fault::bad_input, fmt::format("{}: another session is using this folder; end it, or name another folder "
-                                          "with --session",
-                                          path)};
+    return bad_input(
+        fmt::format("{}: another session is using this folder; end it, or name another folder "
+                    "with --session",
+                    path));
   }
   // What the file holds is not ours to remove, even when this session is refused.
   const off_t size = lseek(descriptor_, 0, SEEK_END);
@@ -55,40 +57,40 @@ HostError Journal::open(const std::string& path) {
   return {};
 }
 
-HostError Journal::cut_to(std::uint64_t size) {
+Failure Journal::cut_to(std::uint64_t size) {
   if (ftruncate(descriptor_, static_cast<off_t>(size)) != 0) return failure("cannot be cut to its whole records");
   size_ = size;
   return {};
 }
 
-HostError Journal::start(const SessionIdentity& identity, std::uint32_t run_id) {
+Failure Journal::start(const SessionIdentity& identity, std::uint32_t run_id) {
   records_ = 0;
-  if (const HostError error = cut_to(0)) return error;
+  if (const Failure error = cut_to(0)) return error;
   const JournalHeader header = make_journal_header(identity, run_id);
-  if (const HostError error = write_at_end(std::as_bytes(std::span(&header, 1)))) return error;
+  if (const Failure error = write_at_end(std::as_bytes(std::span(&header, 1)))) return error;
   if (!sync_folder(path_)) return failure("the folder cannot be synchronised");
   return {};
 }
 
-HostError Journal::resume(std::size_t records) {
+Failure Journal::resume(std::size_t records) {
   records_ = static_cast<std::uint32_t>(records);
-  if (const HostError error = cut_to(sizeof(JournalHeader) + records * sizeof(JournalRecord))) return error;
+  if (const Failure error = cut_to(sizeof(JournalHeader) + records * sizeof(JournalRecord))) return error;
   if (fdatasync(descriptor_) != 0) return failure("cannot be synchronised");
   return {};
 }
 
-HostError Journal::append(std::span<const StreamEvent> events) {
+Failure Journal::append(std::span<const StreamEvent> events) {
   std::array<JournalRecord, kJournalGroup> group;
   const std::size_t count = std::min(events.size(), kJournalGroup);
   for (std::size_t index = 0; index < count; ++index) {
     group[index] = make_journal_record(events[index], records_ + static_cast<std::uint32_t>(index) + 1, records_ + 1);
   }
-  if (const HostError error = write_at_end(std::as_bytes(std::span(group).first(count)))) return error;
+  if (const Failure error = write_at_end(std::as_bytes(std::span(group).first(count)))) return error;
   records_ += static_cast<std::uint32_t>(count);
   return {};
 }
 
-HostError Journal::write_at_end(std::span<const std::byte> bytes) {
+Failure Journal::write_at_end(std::span<const std::byte> bytes) {
   const std::uint64_t before = size_;
   while (!bytes.empty()) {
     const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(size_));
@@ -98,9 +100,9 @@ HostError Journal::write_at_end(std::span<const std::byte> bytes) {
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
   if (bytes.empty() && fdatasync(descriptor_) == 0) return {};
-  const HostError error = failure("cannot be written");
+  const Failure error = failure("cannot be written");
   // Best effort: a tail that stays is no whole record and is cut off at the next start.
-  [[maybe_unused]] const HostError ignored = cut_to(before);
+  [[maybe_unused]] const Failure ignored = cut_to(before);
   size_ = before;
   return error;
 }

@@ -2,29 +2,15 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "drivers/source/failure.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
-#include "firmware_bridge/host/threads/host_error.hpp"
 
 namespace bladefit {
-
-/// What a journal on disk holds.
-struct JournalContent {
-  bool exists = false;  ///< false: no journal, or one whose header was never completed
-  SessionIdentity identity;
-  std::uint32_t run_id = 0;         ///< of the device; 0 where it tells none
-  std::vector<StreamEvent> events;  ///< in the order in which they came
-  std::uint64_t torn_bytes = 0;     ///< bytes of a record or group of records at the end that was never completed
-};
 
 /// Records that one group commit writes at most. A crash can damage the last group only: each record says to which
 /// group it belongs.
 inline constexpr std::size_t kJournalGroup = 256;
-
-/// Reads a journal. A torn tail is left out: what was not completed was never acknowledged. A file that is no journal,
-/// is of another version, or is damaged before its last group is refused (bad_input); a read error is `device`.
-[[nodiscard]] HostError read_journal(const std::string& path, JournalContent& content);
 
 /// Appends events to the journal of a session. One thread at a time owns it. The file is locked against a second host,
 /// and is removed again when the session ends before it has a header.
@@ -37,22 +23,22 @@ class Journal {
 
   /// Opens `path` (made when it is missing) and locks it. bad_input when another host holds it; `device` when the
   /// folder cannot be written.
-  [[nodiscard]] HostError open(const std::string& path);
+  [[nodiscard]] Failure open(const std::string& path);
 
-  /// Starts the file anew with a header, on disk when this returns.
-  [[nodiscard]] HostError start(const SessionIdentity& identity, std::uint32_t run_id);
+  /// Starts the file again with a header, on disk when this returns.
+  [[nodiscard]] Failure start(const SessionIdentity& identity, std::uint32_t run_id);
 
   /// Goes on after the `records` whole records that read_journal() found; whatever follows them is cut off.
-  [[nodiscard]] HostError resume(std::size_t records);
+  [[nodiscard]] Failure resume(std::size_t records);
 
   /// Appends up to kJournalGroup events; they are on disk when this returns without error. After an error the file
   /// ends where it ended before.
-  [[nodiscard]] HostError append(std::span<const StreamEvent> events);
+  [[nodiscard]] Failure append(std::span<const StreamEvent> events);
 
  private:
-  [[nodiscard]] HostError write_at_end(std::span<const std::byte> bytes);
-  [[nodiscard]] HostError cut_to(std::uint64_t size);
-  [[nodiscard]] HostError failure(const char* what) const;
+  [[nodiscard]] Failure write_at_end(std::span<const std::byte> bytes);
+  [[nodiscard]] Failure cut_to(std::uint64_t size);
+  [[nodiscard]] Failure failure(const char* what) const;
 
   std::string path_;
   int descriptor_ = -1;

@@ -25,7 +25,7 @@ struct JournalHeader {
   std::uint32_t version;
   std::uint32_t design_crc;
   std::uint64_t config_digest;
-  std::uint32_t run_id;  ///< of the device; 0 where it tells none
+  std::uint32_t run_id;  ///< of the device; 0 where it has none
   std::uint32_t crc;     ///< CRC-32 of the bytes before it
 };
 

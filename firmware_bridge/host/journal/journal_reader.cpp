@@ -1,15 +1,16 @@
+#include "firmware_bridge/host/journal/journal_reader.hpp"
+
 #include <fmt/core.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-
-#include "firmware_bridge/host/journal/journal.hpp"
+#include <span>
 
 namespace bladefit {
 namespace {
 
-HostError read_bytes(const std::string& path, std::vector<std::byte>& bytes) {
+Failure read_bytes(const std::string& path, std::vector<std::byte>& bytes) {
   errno = 0;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file && errno == ENOENT) return {};
@@ -19,24 +20,27 @@ HostError read_bytes(const std::string& path, std::vector<std::byte>& bytes) {
     file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   }
   if (file) return {};
-  return {Fault::device, fmt::format("{}: cannot be read ({}); check the disk and the rights of the folder", path,
-                                     std::strerror(errno != 0 ? errno : EIO))};
+  return device_failure(fmt::format("{}: cannot be read ({}); check the disk and the rights of the folder", path,
+                                    std::strerror(errno != 0 ? errno : EIO)));
 }
 
-HostError check_header(const std::string& path, const JournalHeader& header) {
+Failure check_header(const std::string& path, const JournalHeader& header) {
   if (header.magic != kJournalMagic) {
-    return {Fault::bad_input, fmt::format("{}: is no journal of a session; name another session folder", path)};
+    return bad_input(fmt::format("{}: is no journal of a session; name another session folder", path));
   }
   if (header.version != kJournalVersion) {
     const char* why = header.version < kJournalVersion ? ", whose check of the settings left out some of them" : "";
-    return {Fault::bad_input, fmt::format("{}: journal of format version {}{}; this program reads version {}: use the "
-                                          "program that wrote it, or name another session folder",
-                                          path, header.version, why, kJournalVersion)};
+    return bad_input(
+        fmt::format("{}: journal of format version {}{}; this program reads version {}: use the program that wrote it, "
+                    "or name another "
+                    "session folder",
+                    path, header.version, why, kJournalVersion));
   }
   if (!header_is_whole(header)) {
-    return {Fault::bad_input, fmt::format("{}: the header is damaged; copy the file from a backup, or name another "
-                                          "session folder",
-                                          path)};
+    return bad_input(
+        fmt::format("{}: the header is damaged; copy the file from a backup, or name another "
+                    "session folder",
+                    path));
   }
   return {};
 }
@@ -51,15 +55,15 @@ std::uint32_t place_of(std::size_t index) { return static_cast<std::uint32_t>(in
 
 }  // namespace
 
-HostError read_journal(const std::string& path, JournalContent& content) {
+Failure read_journal(const std::string& path, JournalContent& content) {
   content = {};
   std::vector<std::byte> bytes;
-  if (const HostError error = read_bytes(path, bytes)) return error;
+  if (const Failure error = read_bytes(path, bytes)) return error;
   JournalHeader header;
   // The header is on disk before the first point is asked for: a shorter file holds nothing that was acknowledged.
   if (bytes.size() < sizeof header) return {};
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (const HostError error = check_header(path, header)) return error;
+  if (const Failure error = check_header(path, header)) return error;
   content.exists = true;
   content.identity = {header.design_crc, header.config_digest};
   content.run_id = header.run_id;
@@ -72,10 +76,11 @@ HostError read_journal(const std::string& path, JournalContent& content) {
     const JournalRecord record = record_at(records, later);
     // A group is begun when the one before it is on disk.
     if (!record_is_whole(record, place_of(later)) || record.group <= place_of(whole)) continue;
-    return {Fault::bad_input, fmt::format("{}: record {} is damaged although records that were stored after it are "
-                                          "whole, so this is no torn end; nothing was changed: copy the file from a "
-                                          "backup, or name another session folder",
-                                          path, place_of(whole))};
+    return bad_input(
+        fmt::format("{}: record {} is damaged although records that were stored after it are "
+                    "whole, so this is no torn end; nothing was changed: copy the file from a "
+                    "backup, or name another session folder",
+                    path, place_of(whole)));
   }
   content.events.reserve(whole);
   for (std::size_t index = 0; index < whole; ++index) content.events.push_back(event_of(record_at(records, index)));

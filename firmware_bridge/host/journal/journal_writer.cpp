@@ -27,19 +27,19 @@ void write_journal(Journal& journal, HostShared& shared) {
   Group group;
   while (true) {
     const bool closed = shared.journal_closed.load();
-    take_group(shared.to_journal, group);
+    take_group(shared.to_journal.ring, group);
     if (group.count == 0) {
       if (closed) return;
-      shared.journal_wakeup.wait(kWait);
+      shared.to_journal.wakeup.wait(kWait);
       continue;
     }
-    if (const HostError error = journal.append(std::span(group.events).first(group.count))) {
-      shared.fail(error);
+    if (const Failure error = journal.append(std::span(group.events).first(group.count))) {
+      shared.outcome.fail(error);
       return;
     }
-    if (group.last_sequence != 0) shared.stored_sequence.store(group.last_sequence);
-    shared.stored_events.fetch_add(group.count);
-    shared.stored_wakeup.signal();
+    if (group.last_sequence != 0) shared.stored.sequence.store(group.last_sequence);
+    shared.stored.events.fetch_add(group.count);
+    shared.stored.wakeup.signal();
   }
 }
 

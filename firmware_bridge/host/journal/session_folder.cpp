@@ -11,7 +11,7 @@ SessionFolder::~SessionFolder() {
   for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, not_empty);
 }
 
-HostError SessionFolder::make(const std::string& path) {
+Failure SessionFolder::make(const std::string& path) {
   std::error_code problem;
   std::vector<std::filesystem::path> missing;
   std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal();
@@ -21,8 +21,8 @@ HostError SessionFolder::make(const std::string& path) {
   }
   std::filesystem::create_directories(path, problem);
   if (problem) {
-    return {Fault::device, fmt::format("{}: the session folder cannot be made ({}); name another one with --session",
-                                       path, problem.message())};
+    return device_failure(fmt::format("{}: the session folder cannot be made ({}); name another one with --session",
+                                      path, problem.message()));
   }
   made_ = std::move(missing);
   return {};

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_bridge/host/threads/host_error.hpp"
+#include "drivers/source/failure.hpp"
 
 namespace bladefit {
 
@@ -16,7 +16,7 @@ class SessionFolder {
   ~SessionFolder();
 
   /// Makes the folder and those above it where they are missing. `device`: it cannot be made.
-  [[nodiscard]] HostError make(const std::string& path);
+  [[nodiscard]] Failure make(const std::string& path);
 
  private:
   std::vector<std::filesystem::path> made_;  ///< innermost first

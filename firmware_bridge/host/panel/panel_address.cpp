@@ -1,6 +1,6 @@
-#include <charconv>
+#include "firmware_bridge/host/panel/panel_address.hpp"
 
-#include "firmware_bridge/host/panel/panel_server.hpp"
+#include <charconv>
 
 namespace bladefit {
 

@@ -49,7 +49,7 @@ class Reader {
   std::size_t next_ = 0;
 };
 
-// The map is told once, for both ways: `walk` is a Writer and `state` constant, or a Reader and it is filled.
+// The map is written once, for both ways: `walk` is a Writer and `state` constant, or a Reader and it is filled.
 
 template <typename Walk, typename State>
 void walk_counts(Walk& walk, State& state) {

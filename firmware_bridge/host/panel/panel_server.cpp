@@ -55,16 +55,17 @@ PanelServer::~PanelServer() {
   if (listener_ >= 0) close(listener_);
 }
 
-HostError PanelServer::open(const PanelServerSettings& settings) {
+Failure PanelServer::open(const PanelServerSettings& settings) {
   settings_ = settings;
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = AI_PASSIVE;
   addrinfo* found = nullptr;
   if (getaddrinfo(settings.host.c_str(), std::to_string(settings.port).c_str(), &hints, &found) != 0) {
-    return {Fault::bad_input, fmt::format("--panel {}:{}: no address of this name; use HOST:PORT, for example "
-                                          "127.0.0.1:1503",
-                                          settings.host, settings.port)};
+    return bad_input(
+        fmt::format("--panel {}:{}: no address of this name; use HOST:PORT, for example "
+                    "127.0.0.1:1503",
+                    settings.host, settings.port));
   }
   listener_ = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   const int on = 1;
@@ -73,9 +74,10 @@ HostError PanelServer::open(const PanelServerSettings& settings) {
   const int reason = errno;
   freeaddrinfo(found);
   if (!listening) {
-    return {Fault::device, fmt::format("--panel {}:{}: cannot listen there ({}); choose another address or port, "
-                                       "port 0 takes any free one",
-                                       settings.host, settings.port, std::strerror(reason))};
+    return device_failure(
+        fmt::format("--panel {}:{}: cannot listen there ({}); choose another address or port, "
+                    "port 0 takes any free one",
+                    settings.host, settings.port, std::strerror(reason)));
   }
   port_ = port_of(listener_);
   return {};

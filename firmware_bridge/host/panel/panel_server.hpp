@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/source/failure.hpp"
 #include "firmware_bridge/host/panel/panel_protocol.hpp"
-#include "firmware_bridge/host/threads/host_error.hpp"
 
 namespace bladefit {
 
@@ -16,9 +16,6 @@ struct PanelServerSettings {
   bool commands = false;             ///< whether clients may press the coils
   std::vector<std::string> allow{};  ///< numeric addresses that may connect; empty = every one that reaches `host`
 };
-
-/// Reads "HOST:PORT", "[IPV6]:PORT". False, and the arguments as before, when `text` is neither.
-[[nodiscard]] bool parse_address(const std::string& text, std::string& host, std::uint16_t& port);
 
 /// Modbus TCP server of the panel. It speaks the protocol itself, because the server half of libmodbus waits for slow
 /// clients and sleeps after a bad request; here no socket call waits, so that no client can hold up another one or the
@@ -33,7 +30,7 @@ class PanelServer {
   PanelServer& operator=(const PanelServer&) = delete;
 
   /// Starts to listen. bad_input for an address that does not exist here, `device` for a port in use.
-  [[nodiscard]] HostError open(const PanelServerSettings& settings);
+  [[nodiscard]] Failure open(const PanelServerSettings& settings);
 
   /// The port listened at.
   [[nodiscard]] std::uint16_t port() const { return port_; }

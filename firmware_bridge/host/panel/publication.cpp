@@ -30,18 +30,18 @@ void Publication::run() {
   const auto on_commands = [this](const PanelCommands& commands) { follow(commands); };
   while (true) {
     const bool last_turn = shared_.panel_closed.load() && shared_.fit_done.load();
-    shared_.publication_wakeup.clear();
+    shared_.to_publication.wakeup.clear();
     take_news();
     update_state();
     server_.serve(encode_panel(state_), on_commands);
     if (last_turn) return;
-    server_.wait(shared_.publication_wakeup.descriptor(), kLongestWait);
+    server_.wait(shared_.to_publication.wakeup.descriptor(), kLongestWait);
   }
 }
 
 void Publication::take_news() {
   FitOutput output;
-  while (shared_.to_publication.pop(output)) {
+  while (shared_.to_publication.ring.pop(output)) {
     if (output.forget) {
       tally_.clear();
       last_sequence_ = 0;
@@ -118,7 +118,7 @@ void Publication::update_places() {
 }
 
 SessionState Publication::session_state() {
-  if (shared_.failed.load() || link_.device_fault) return SessionState::fault;
+  if (shared_.outcome.failed() || link_.device_fault) return SessionState::fault;
   if (link_.paused) return SessionState::idle;
   if (link_.link == LinkState::connecting) return SessionState::connecting;
   if (figures_.report.status == FitStatus::underdetermined) return SessionState::collecting;
@@ -139,9 +139,9 @@ std::uint16_t Publication::alarms() const {
 }
 
 void Publication::follow(const PanelCommands& commands) {
-  if (commands.start) shared_.paused.store(false);
-  if (commands.stop) shared_.paused.store(true);
-  if (commands.reset) shared_.reset_requested.store(true);
+  if (commands.start) shared_.requests.pause.store(false);
+  if (commands.stop) shared_.requests.pause.store(true);
+  if (commands.reset) shared_.requests.reset.store(true);
   if (!commands.acknowledge) return;
   acknowledged_times_out_ = tally_.times_out();
   acknowledged_losses_ = link_.losses;

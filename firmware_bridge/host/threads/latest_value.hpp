@@ -17,12 +17,12 @@ class LatestValue {
   /// Writer only.
   void publish(const Value& value) {
     slots_[writing_] = value;
-    writing_ = middle_.exchange(writing_ | kFresh, std::memory_order_acq_rel) & kIndex;
+    writing_ = middle_.exchange(writing_ | kNewer, std::memory_order_acq_rel) & kIndex;
   }
 
   /// Reader only. True when there is a value newer than the last one taken; only then `value` is written.
   [[nodiscard]] bool take(Value& value) {
-    if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
+    if ((middle_.load(std::memory_order_relaxed) & kNewer) == 0) return false;
     reading_ = middle_.exchange(reading_, std::memory_order_acq_rel) & kIndex;
     value = slots_[reading_];
     return true;
@@ -30,7 +30,7 @@ class LatestValue {
 
  private:
   static constexpr std::uint32_t kIndex = 3;
-  static constexpr std::uint32_t kFresh = 4;
+  static constexpr std::uint32_t kNewer = 4;
   std::array<Value, 3> slots_{};
   std::uint32_t writing_ = 0;
   std::uint32_t reading_ = 1;

@@ -8,6 +8,7 @@
 
 #include "config/device_settings.hpp"
 #include "config/session_settings.hpp"
+#include "drivers/source_registry.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace bladefit {
@@ -28,7 +29,7 @@ TEST(ShippedFiles, AllLoad) {
   for (const auto& entry : std::filesystem::directory_iterator(kShipped + "devices")) {
     SourceSettings settings;
     EXPECT_EQ(load_device(entry.path(), settings).message, "");
-    EXPECT_NE(settings.kind, SourceKind::none);
+    EXPECT_NE(protocol_of(settings), nullptr);
     ++count;
   }
   EXPECT_EQ(count, 4);
@@ -44,10 +45,11 @@ TEST(ShippedFiles, AllLoad) {
 }
 
 TEST(ShippedFiles, SayWhatHoldsWithoutThem) {
-  SourceSettings told;
-  ASSERT_EQ(load_device(kShipped + "devices/modbus_tcp.toml", told).message, "");
+  SourceSettings settings;
+  ASSERT_EQ(load_device(kShipped + "devices/modbus_tcp.toml", settings).message, "");
+  const ModbusSettings modbus = std::get<ModbusSettings>(settings);
   const CmmMap map;
-  const CmmMap& read = told.modbus.map;
+  const CmmMap& read = modbus.map;
   const auto same = [](const NumberField& left, const NumberField& right) {
     return left.present == right.present && left.address == right.address && left.type == right.type &&
            left.scale == right.scale;
@@ -63,12 +65,12 @@ TEST(ShippedFiles, SayWhatHoldsWithoutThem) {
   EXPECT_TRUE(same(read.sequence, map.sequence) && same(read.path, map.path) &&
               same(read.record_status, map.record_status));
   EXPECT_EQ(read.finished_mask, map.finished_mask);
-  EXPECT_EQ(told.modbus.poll_period, ModbusSettings{}.poll_period);
-  EXPECT_EQ(told.modbus.record_tries, ModbusSettings{}.record_tries);
-  SourceSettings serial;
-  ASSERT_EQ(load_device(kShipped + "devices/serial.toml", serial).message, "");
-  EXPECT_EQ(serial.serial.resend_interval, SerialSettings{}.resend_interval);
-  EXPECT_EQ(serial.serial.silence, SerialSettings{}.silence);
+  EXPECT_EQ(modbus.poll_period, ModbusSettings{}.poll_period);
+  EXPECT_EQ(modbus.record_tries, ModbusSettings{}.record_tries);
+  ASSERT_EQ(load_device(kShipped + "devices/serial.toml", settings).message, "");
+  const SerialSettings serial = std::get<SerialSettings>(settings);
+  EXPECT_EQ(serial.resend_interval, SerialSettings{}.resend_interval);
+  EXPECT_EQ(serial.silence, SerialSettings{}.silence);
   EXPECT_EQ(serial.line.baud, 115200);
 }
 
@@ -81,10 +83,11 @@ TEST(DeviceFile, DescribesAnotherMap) {
       "i = false\nj = false\nk = false\npath = false\nstatus = false\ncrc = { offset = 11 }\n");
   SourceSettings settings;
   ASSERT_EQ(load_device(file.path, settings).message, "");
-  EXPECT_EQ(settings.kind, SourceKind::modbus_rtu);
-  EXPECT_EQ(settings.line.parity, Parity::even);
-  EXPECT_EQ(settings.modbus.poll_period, std::chrono::microseconds(500));
-  const CmmMap& map = settings.modbus.map;
+  const ModbusSettings modbus = std::get<ModbusSettings>(settings);
+  EXPECT_EQ(modbus.transport, ModbusTransport::rtu);
+  EXPECT_EQ(modbus.line.parity, Parity::even);
+  EXPECT_EQ(modbus.poll_period, std::chrono::microseconds(500));
+  const CmmMap& map = modbus.map;
   EXPECT_EQ(map.word_order, WordOrder::low_first);
   EXPECT_EQ(map.table, RegisterTable::holding);
   EXPECT_FALSE(map.run_id.present || map.direction[0].present || map.path.present);
@@ -99,7 +102,7 @@ struct BadFile {
   const char* error;  ///< what follows the file's name
 };
 
-using Load = std::function<ConfigError(const std::string&)>;
+using Load = std::function<Failure(const std::string&)>;
 
 void expect_error(const BadFile& bad, const Load& load) {
   const File file(bad.text);
@@ -112,11 +115,12 @@ class DeviceErrors : public ::testing::TestWithParam<BadFile> {};
 
 TEST_P(DeviceErrors, NameFileLineKeyAndMend) {
   expect_error(GetParam(), [](const std::string& path) {
-    SourceSettings settings;
-    settings.modbus.unit = 77;
-    const ConfigError error = load_device(path, settings);
-    EXPECT_EQ(settings.modbus.unit, 77) << "left as it was";
-    return error;
+    ModbusSettings before;
+    before.unit = 77;
+    SourceSettings settings = before;
+    const Failure failure = load_device(path, settings);
+    EXPECT_EQ(std::get<ModbusSettings>(settings).unit, 77) << "left as it was";
+    return failure;
   });
 }
 
@@ -229,19 +233,18 @@ TEST(DeviceFile, TakesEveryPathFromItsFolder) {
   const File line("kind = \"serial\"\n[line]\ndevice = \"port\"\n");
   SourceSettings settings;
   ASSERT_EQ(load_device(line.path, settings).message, "");
-  EXPECT_EQ(settings.line.device, std::filesystem::path(line.path).parent_path() / "port");
+  EXPECT_EQ(std::get<SerialSettings>(settings).line.device, std::filesystem::path(line.path).parent_path() / "port");
   const File replay("kind = \"replay\"\n[replay]\nfile = \"points.csv\"\n");
   ASSERT_EQ(load_device(replay.path, settings).message, "");
-  EXPECT_EQ(settings.replay.file, std::filesystem::path(replay.path).parent_path() / "points.csv");
+  EXPECT_EQ(std::get<ReplaySettings>(settings).file, std::filesystem::path(replay.path).parent_path() / "points.csv");
 }
 
-TEST(DeviceFile, UnitsOfARecordingAreThoseOfTheCallerWhereItDoesNotTellThem) {
+TEST(DeviceFile, LeavesTheUnitsOfARecordingToTheCallerWhereItDoesNotGiveThem) {
   SourceSettings settings;
-  settings.replay.mm_per_unit = 25.4;
   ASSERT_EQ(load_device(File("kind = \"replay\"\n").path, settings).message, "");
-  EXPECT_EQ(settings.replay.mm_per_unit, 25.4);
+  EXPECT_EQ(std::get<ReplaySettings>(settings).mm_per_unit, std::nullopt);
   ASSERT_EQ(load_device(File("kind = \"replay\"\n[replay]\nunits = \"mm\"\n").path, settings).message, "");
-  EXPECT_EQ(settings.replay.mm_per_unit, 1);
+  EXPECT_EQ(std::get<ReplaySettings>(settings).mm_per_unit, 1);
 }
 
 TEST(LeadingEdge, IsReadAsOnTheCommandLine) {

@@ -22,7 +22,7 @@ const FitOption& option_of(std::string_view key) {
   throw std::out_of_range(std::string(key));
 }
 
-ConfigError set_number(std::string_view key, double value, FitSettings& settings) {
+Failure set_number(std::string_view key, double value, FitSettings& settings) {
   return set(std::get<NumberOption>(option_of(key).kind), value, settings);
 }
 
@@ -33,11 +33,11 @@ std::string contents(const std::string& path) {
 }
 
 /// Reads a text as a TOML file.
-ConfigError load(const std::string& text, FitSettings& settings) {
+Failure load(const std::string& text, FitSettings& settings) {
   std::string folder = "/tmp/bladefit_option_XXXXXX";
-  if (::mkdtemp(folder.data()) == nullptr) return {"no folder"};
+  if (::mkdtemp(folder.data()) == nullptr) return bad_input("no folder");
   std::ofstream(folder + "/fit.toml", std::ios::binary) << text;
-  const ConfigError error = load_fit(folder + "/fit.toml", settings);
+  const Failure error = load_fit(folder + "/fit.toml", settings);
   std::filesystem::remove_all(folder);
   return error;
 }

@@ -18,7 +18,7 @@ class DroLines : public testing::TestWithParam<DroCase> {};
 
 TEST_P(DroLines, AreReadOrRefused) {
   std::array<double, 3> position{};
-  const std::string error = parse_dro_line(GetParam().line, DroSettings{}, position);
+  const std::string error = parse_dro_line(GetParam().line, DroSettings{}, position).message;
   if (std::string_view(GetParam().error).empty()) {
     EXPECT_EQ(error, "");
     EXPECT_EQ(position, (std::array<double, 3>{123.4567, -1.2, 0}));
@@ -45,9 +45,9 @@ TEST(DroLine, FollowsItsSettings) {
   settings.separators = " ;";
   settings.mm_per_unit = 25.4;
   std::array<double, 3> position{};
-  ASSERT_EQ(parse_dro_line("1,5; 2 ;-3", settings, position), "");
+  ASSERT_EQ(parse_dro_line("1,5; 2 ;-3", settings, position).message, "");
   EXPECT_EQ(position, (std::array<double, 3>{2 * 25.4, -3 * 25.4, 1.5 * 25.4}));
-  EXPECT_NE(parse_dro_line("1.5; 2 ;-3", settings, position), "");
+  EXPECT_NE(parse_dro_line("1.5; 2 ;-3", settings, position).message, "");
 }
 
 }  // namespace

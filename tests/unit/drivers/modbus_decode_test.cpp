@@ -93,7 +93,7 @@ void seal(Words& words) { words[19] = crc16(std::span<const std::uint16_t>(words
 
 TEST(CmmRecord, DecodesMapV1) {
   ProbePoint point;
-  ASSERT_EQ(decode_record(record(70000), CmmMap{}, 70000, point), "");
+  ASSERT_EQ(decode_record(record(70000), CmmMap{}, 70000, point).message, "");
   EXPECT_EQ(point.sequence, 70000U);
   EXPECT_EQ(point.position, (std::array<double, 3>{1.5, -2.5, 1e-3}));
   EXPECT_EQ(point.approach, (std::array<double, 3>{0, 0, -1}));
@@ -111,7 +111,7 @@ TEST(CmmRecord, DecodesAnotherMap) {
   map.path.present = map.record_status.present = map.crc.present = false;
   const Words words = {7, 0x0001, 0x0002, 0xFFFF, 0xFFFF, 0x0000, 0x3F80, 0};
   ProbePoint point;
-  ASSERT_EQ(decode_record(words, map, 7, point), "");
+  ASSERT_EQ(decode_record(words, map, 7, point).message, "");
   EXPECT_DOUBLE_EQ(point.position[0], 131.073);
   EXPECT_DOUBLE_EQ(point.position[1], -0.001);
   EXPECT_DOUBLE_EQ(point.position[2], 25.4);
@@ -123,26 +123,27 @@ TEST(CmmRecord, RefusesEveryChangedBit) {
     Words words = record(9);
     words[bit / 16] = static_cast<std::uint16_t>(words[bit / 16] ^ (1U << bit % 16));
     ProbePoint point;
-    EXPECT_NE(decode_record(words, CmmMap{}, 9, point), "") << bit;
+    EXPECT_NE(decode_record(words, CmmMap{}, 9, point).message, "") << bit;
     EXPECT_EQ(point.sequence, 0U);
   }
 }
 
 TEST(CmmRecord, SaysWhatIsWrong) {
   ProbePoint point;
-  EXPECT_EQ(decode_record(record(8), CmmMap{}, 9, point), "record 9: its place holds record 8");
+  EXPECT_EQ(decode_record(record(8), CmmMap{}, 9, point).message, "record 9: its place holds record 8");
   Words words = record(9);
   words[18] = 3;
   seal(words);
-  EXPECT_EQ(decode_record(words, CmmMap{}, 9, point), "record 9: the device marks it as bad, status 3");
+  EXPECT_EQ(decode_record(words, CmmMap{}, 9, point).message, "record 9: the device marks it as bad, status 3");
   words = record(9);
   put_double(words, 6, std::numeric_limits<double>::infinity());
   seal(words);
-  EXPECT_EQ(decode_record(words, CmmMap{}, 9, point), "record 9: y is not a finite number");
+  EXPECT_EQ(decode_record(words, CmmMap{}, 9, point).message, "record 9: y is not a finite number");
   words = record(9);
   words[14] = 20000;
   seal(words);
-  EXPECT_NE(decode_record(words, CmmMap{}, 9, point).find("its direction has the length 1.17"), std::string::npos);
+  EXPECT_NE(decode_record(words, CmmMap{}, 9, point).message.find("its direction has the length 1.17"),
+            std::string::npos);
 }
 
 Words header() {
@@ -164,7 +165,7 @@ TEST(CmmHeader, DecodesMapV1) {
   EXPECT_EQ(decoded.newest, 5U);
   EXPECT_EQ(decoded.capacity, 512U);
   EXPECT_EQ(decoded.run_id, 77U);
-  EXPECT_EQ(check_header(decoded, CmmMap{}), "");
+  EXPECT_EQ(check_header(decoded, CmmMap{}).message, "");
 }
 
 struct WrongHeader {
@@ -178,7 +179,7 @@ class CmmHeaderErrors : public testing::TestWithParam<WrongHeader> {};
 TEST_P(CmmHeaderErrors, NameTheMend) {
   Words words = header();
   words[GetParam().at] = GetParam().word;
-  EXPECT_NE(check_header(decode_header(words, CmmMap{}), CmmMap{}).find(GetParam().error), std::string::npos);
+  EXPECT_NE(check_header(decode_header(words, CmmMap{}), CmmMap{}).message.find(GetParam().error), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CmmHeaderErrors,
@@ -190,32 +191,32 @@ INSTANTIATE_TEST_SUITE_P(All, CmmHeaderErrors,
 TEST(CmmHeader, TellsTheOtherWordOrder) {
   Words words = header();
   std::reverse(words.begin() + 8, words.end());
-  EXPECT_NE(check_header(decode_header(words, CmmMap{}), CmmMap{}).find("set word_order = \"low_first\""),
+  EXPECT_NE(check_header(decode_header(words, CmmMap{}), CmmMap{}).message.find("set word_order = \"low_first\""),
             std::string::npos);
   std::fill(words.begin() + 8, words.end(), std::uint16_t{0});
-  EXPECT_EQ(check_header(decode_header(words, CmmMap{}), CmmMap{}), "");
+  EXPECT_EQ(check_header(decode_header(words, CmmMap{}), CmmMap{}).message, "");
 }
 
 TEST(CmmMapCheck, FindsContradictions) {
-  EXPECT_EQ(check_map(CmmMap{}), "");
+  EXPECT_EQ(check_map(CmmMap{}).message, "");
   CmmMap map;
   map.crc.address = 20;
-  EXPECT_NE(check_map(map).find("crc ends at offset 20"), std::string::npos);
+  EXPECT_NE(check_map(map).message.find("crc ends at offset 20"), std::string::npos);
   map = {};
   map.crc = {true, 18, NumberType::uint32, 1};
-  EXPECT_NE(check_map(map).find("crc is not a uint16"), std::string::npos);
+  EXPECT_NE(check_map(map).message.find("crc is not a uint16"), std::string::npos);
   map = {};
   map.run_id.address = 130;
-  EXPECT_NE(check_map(map).find("span 132 registers"), std::string::npos);
+  EXPECT_NE(check_map(map).message.find("span 132 registers"), std::string::npos);
   map = {};
   map.sequence.present = false;
-  EXPECT_NE(check_map(map).find("sequence is missing"), std::string::npos);
+  EXPECT_NE(check_map(map).message.find("sequence is missing"), std::string::npos);
   map = {};
   map.direction[1].present = false;
-  EXPECT_NE(check_map(map).find("i, j and k"), std::string::npos);
+  EXPECT_NE(check_map(map).message.find("i, j and k"), std::string::npos);
   map = {};
   map.capacity.present = false;
-  EXPECT_NE(check_map(map).find("ring_capacity is missing"), std::string::npos);
+  EXPECT_NE(check_map(map).message.find("ring_capacity is missing"), std::string::npos);
 }
 
 TEST(ModbusFrame, EncodesRequests) {

@@ -16,9 +16,9 @@ constexpr std::uint8_t kRead = 4, kCommand = 6, kAcknowledge = 16;
 constexpr std::uint8_t kIllegalAddress = 2, kDeviceFailure = 4, kAcceptedSlowly = 5, kBusy = 6;
 constexpr milliseconds kPollPeriod{10};
 
-SourceSettings settings_of(const TcpMachine& machine) {
-  SourceSettings settings = machine.settings();
-  settings.modbus.poll_period = kPollPeriod;
+ModbusSettings settings_of(const TcpMachine& machine) {
+  ModbusSettings settings = machine.settings();
+  settings.poll_period = kPollPeriod;
   return settings;
 }
 
@@ -110,9 +110,9 @@ TEST_P(BusyAtOpening, IsWaitedFor) {
 TEST_P(BusyAtOpening, IsNotWaitedForEver) {
   TcpMachine machine;
   machine.registers.refuse(GetParam().function, GetParam().exception, INT_MAX);
-  SourceSettings settings = settings_of(machine);
-  settings.modbus.connect_timeout = milliseconds(100);
-  settings.modbus.reply_timeout = milliseconds(20);
+  ModbusSettings settings = settings_of(machine);
+  settings.connect_timeout = milliseconds(100);
+  settings.reply_timeout = milliseconds(20);
   const std::string message = make_source(settings)->open(0, 0).message;
   EXPECT_NE(message.find("the device refuses function"), std::string::npos) << message;
   EXPECT_NE(message.find("; end what keeps it busy"), std::string::npos) << message;

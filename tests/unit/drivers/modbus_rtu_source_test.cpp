@@ -30,12 +30,12 @@ class RtuMachine {
     if (master_ >= 0) ::close(master_);
   }
 
-  [[nodiscard]] SourceSettings settings() const {
-    SourceSettings settings;
-    settings.kind = SourceKind::modbus_rtu;
+  [[nodiscard]] ModbusSettings settings() const {
+    ModbusSettings settings;
+    settings.transport = ModbusTransport::rtu;
     settings.line.device = device;
-    settings.modbus.reply_timeout = milliseconds(100);
-    settings.modbus.quiet = milliseconds(100);
+    settings.reply_timeout = milliseconds(100);
+    settings.quiet = milliseconds(100);
     return settings;
   }
 
@@ -119,8 +119,8 @@ TEST(ModbusRtu, TakesItsEchoOut) {
   RtuMachine machine;
   machine.echo = true;
   machine.registers.probe(2);
-  SourceSettings settings = machine.settings();
-  settings.modbus.echo = true;
+  ModbusSettings settings = machine.settings();
+  settings.echo = true;
   const auto source = make_source(settings);
   ASSERT_EQ(source->open(0, 0).message, "");
   EXPECT_EQ(collect_checked(*source, 2), counted(1, 2));
@@ -128,9 +128,9 @@ TEST(ModbusRtu, TakesItsEchoOut) {
 
 TEST(ModbusRtu, ToleratesASilenceWithoutReopening) {
   RtuMachine machine;
-  SourceSettings settings = machine.settings();
-  settings.modbus.reply_timeout = milliseconds(30);
-  settings.modbus.quiet = milliseconds(10);
+  ModbusSettings settings = machine.settings();
+  settings.reply_timeout = milliseconds(30);
+  settings.quiet = milliseconds(10);
   const auto source = make_source(settings);
   ASSERT_EQ(source->open(0, 0).message, "");
   machine.dumb = true;
@@ -144,10 +144,10 @@ TEST(ModbusRtu, ToleratesASilenceWithoutReopening) {
 /// The pause between two frames alone is longer than a poll period: the header and a refused write are always due.
 TEST(ModbusRtu, ReadsRecordsOnASlowLine) {
   RtuMachine machine;
-  SourceSettings settings = machine.settings();
+  ModbusSettings settings = machine.settings();
   settings.line.baud = 9600;
-  settings.modbus.reply_timeout = milliseconds(600);
-  settings.modbus.poll_period = std::chrono::microseconds(100);
+  settings.reply_timeout = milliseconds(600);
+  settings.poll_period = std::chrono::microseconds(100);
   const auto source = make_source(settings);
   ASSERT_EQ(source->open(0, 0).message, "");
   machine.registers.probe(9);
@@ -160,15 +160,15 @@ TEST(ModbusRtu, ReadsRecordsOnASlowLine) {
 
 TEST(ModbusRtuErrors, NameTheDeviceAndTheMend) {
   RtuMachine machine;
-  const auto opened = [](const SourceSettings& settings) { return make_source(settings)->open(0, 0).message; };
-  SourceSettings slow = machine.settings();
+  const auto opened = [](const ModbusSettings& settings) { return make_source(settings)->open(0, 0).message; };
+  ModbusSettings slow = machine.settings();
   slow.line.baud = 9600;
   EXPECT_NE(opened(slow).find("a reply timeout of 100 ms is too short: request and reply take 264 ms at 9600 baud"),
             std::string::npos)
       << opened(slow);
   slow.line.baud = 9601;
   EXPECT_NE(opened(slow).find("9601 baud is no standard rate"), std::string::npos);
-  SourceSettings missing = machine.settings();
+  ModbusSettings missing = machine.settings();
   missing.line.device = "/dev/nonexistent";
   EXPECT_NE(opened(missing).find("modbus-rtu:/dev/nonexistent: there is no such port"), std::string::npos);
   missing.line.device = "/dev/null";

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <thread>
 
-#include "drivers/source_settings.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
 #include "tests/unit/drivers/modbus_machine.hpp"
 
 namespace bladefit {
@@ -35,11 +35,11 @@ class TcpMachine {
     ::close(listener_);
   }
 
-  [[nodiscard]] SourceSettings settings() const {
-    SourceSettings settings;
-    settings.kind = SourceKind::modbus_tcp;
+  [[nodiscard]] ModbusSettings settings() const {
+    ModbusSettings settings;
+    settings.transport = ModbusTransport::tcp;
     settings.tcp = {"127.0.0.1", port};
-    settings.modbus.reply_timeout = std::chrono::milliseconds(100);
+    settings.reply_timeout = std::chrono::milliseconds(100);
     return settings;
   }
 

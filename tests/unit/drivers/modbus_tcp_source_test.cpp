@@ -62,8 +62,8 @@ TEST(ModbusTcp, SurvivesEveryMischief) {
 
 TEST(ModbusTcp, GivesUpADeadConnectionAndTellsSo) {
   TcpMachine machine;
-  SourceSettings settings = machine.settings();
-  settings.modbus.reply_timeout = milliseconds(20);
+  ModbusSettings settings = machine.settings();
+  settings.reply_timeout = milliseconds(20);
   const auto source = make_source(settings);
   ASSERT_EQ(source->open(0, 0).message, "");
   machine.dumb = true;
@@ -154,38 +154,37 @@ TEST_P(ModbusTcpRuns, TheRunThatTheStartHasBegunIsAcknowledged) {
 
 TEST(ModbusTcpErrors, NameTheDeviceAndTheMend) {
   TcpMachine machine;
-  const auto opened = [&machine](const SourceSettings& settings) { return make_source(settings)->open(0, 0).message; };
+  const auto opened = [&machine](const ModbusSettings& settings) { return make_source(settings)->open(0, 0).message; };
   const std::string name = "modbus-tcp://127.0.0.1:" + std::to_string(machine.port) + ": ";
   machine.registers.set(0, 2);
   EXPECT_EQ(opened(machine.settings()),
             name + "it has register map version 2, not 1; give a device file that describes its map");
   machine.registers.set(0, 1);
-  SourceSettings swapped = machine.settings();
-  swapped.modbus.map.test_constant.address = 8;
+  ModbusSettings swapped = machine.settings();
+  swapped.map.test_constant.address = 8;
   for (const auto& [address, word] : {std::pair{8, 0x3958}, {9, 0xC8B4}, {10, 0x1CD6}, {11, 0x40C8}}) {
     machine.registers.set(static_cast<std::size_t>(address), static_cast<std::uint16_t>(word));
   }
   EXPECT_NE(opened(swapped).find("set word_order = \"low_first\""), std::string::npos);
-  SourceSettings elsewhere = machine.settings();
-  elsewhere.modbus.map.newest.address = 999;
-  elsewhere.modbus.map.version.present = elsewhere.modbus.map.status.present = elsewhere.modbus.map.capacity.present =
-      false;
-  elsewhere.modbus.map.record_size_told.present = elsewhere.modbus.map.run_id.present = false;
-  elsewhere.modbus.map.test_constant.present = false;
-  elsewhere.modbus.map.ring_capacity = 16;
+  ModbusSettings elsewhere = machine.settings();
+  elsewhere.map.newest.address = 999;
+  elsewhere.map.version.present = elsewhere.map.status.present = elsewhere.map.capacity.present = false;
+  elsewhere.map.reported_record_size.present = elsewhere.map.run_id.present = false;
+  elsewhere.map.test_constant.present = false;
+  elsewhere.map.ring_capacity = 16;
   EXPECT_NE(opened(elsewhere).find("the device refuses function 4 at register 999: Illegal data address"),
             std::string::npos);
   machine.dumb = true;
-  SourceSettings mute = machine.settings();
-  mute.modbus.reply_timeout = milliseconds(20);
+  ModbusSettings mute = machine.settings();
+  mute.reply_timeout = milliseconds(20);
   EXPECT_NE(opened(mute).find("unit 1 does not answer"), std::string::npos);
-  SourceSettings unknown = machine.settings();
+  ModbusSettings unknown = machine.settings();
   unknown.tcp.host = "no.such.host.invalid";
   EXPECT_NE(opened(unknown).find("the host is not known"), std::string::npos);
 }
 
 TEST(ModbusTcpErrors, NameARefusedConnection) {
-  SourceSettings settings;
+  ModbusSettings settings;
   {
     const TcpMachine machine;
     settings = machine.settings();

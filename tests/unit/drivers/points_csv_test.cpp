@@ -11,7 +11,7 @@ namespace {
 
 TEST(PointsCsv, ReadsEveryColumnInAnyOrder) {
   const PointsFile file = parse_points_csv("path,z,y,x,k,j,i\r\n# a comment\r\n\r\n7,3,2,+1,1,0,0\r\n", "a.csv", 1);
-  ASSERT_EQ(file.error, "");
+  ASSERT_EQ(file.error.message, "");
   ASSERT_EQ(file.points.size(), 1U);
   EXPECT_EQ(file.points[0].position, (std::array<double, 3>{1, 2, 3}));
   EXPECT_EQ(file.points[0].approach, (std::array<double, 3>{0, 0, 1}));
@@ -24,15 +24,15 @@ TEST(PointsCsv, ReadsEveryColumnInAnyOrder) {
 TEST(PointsCsv, TakesEveryKindOfLineEnd) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     const PointsFile file = parse_points_csv("x,y,z" + end + end + "1,2,3" + end + "4,5,6", "a.csv", 1);
-    ASSERT_EQ(file.error, "");
+    ASSERT_EQ(file.error.message, "");
     EXPECT_EQ(file.points.size(), 2U);
-    EXPECT_EQ(parse_points_csv("x,y,z" + end + end + "1,2,q", "a.csv", 1).error.substr(0, 8), "a.csv:3:");
+    EXPECT_EQ(parse_points_csv("x,y,z" + end + end + "1,2,q", "a.csv", 1).error.message.substr(0, 8), "a.csv:3:");
   }
 }
 
 TEST(PointsCsv, ScalesLengthsAndNotDirections) {
   const PointsFile file = parse_points_csv("x,y,z,i,j,k\n1,-2,3e1,0.6,0.8,0\n", "a.csv", 25.4);
-  ASSERT_EQ(file.error, "");
+  ASSERT_EQ(file.error.message, "");
   EXPECT_EQ(file.points[0].position, (std::array<double, 3>{25.4, -50.8, 30 * 25.4}));
   EXPECT_NEAR(file.points[0].approach[1], 0.8, 1e-15);
   EXPECT_FALSE(file.has_path);
@@ -40,7 +40,7 @@ TEST(PointsCsv, ScalesLengthsAndNotDirections) {
 
 TEST(PointsCsv, NormalisesDirectionsAndKeepsUnknownOnes) {
   const PointsFile file = parse_points_csv("x,y,z,i,j,k\n1,2,3,0.9995,0,0\n1,2,3,0,0,0", "a.csv", 1);
-  ASSERT_EQ(file.error, "");
+  ASSERT_EQ(file.error.message, "");
   EXPECT_EQ(file.points[0].approach[0], 1.0);
   EXPECT_EQ(file.points[1].approach, (std::array<double, 3>{}));
 }
@@ -55,9 +55,9 @@ class PointsCsvErrors : public testing::TestWithParam<BadFile> {};
 TEST_P(PointsCsvErrors, NameFileLineColumnAndMend) {
   const PointsFile file = parse_points_csv(GetParam().text, "a.csv", 1);
   EXPECT_TRUE(file.points.empty());
-  EXPECT_NE(file.error.find(GetParam().error), std::string::npos) << file.error;
-  EXPECT_TRUE(file.error.starts_with("a.csv")) << file.error;
-  EXPECT_EQ(file.error.find('\n'), std::string::npos);
+  EXPECT_NE(file.error.message.find(GetParam().error), std::string::npos) << file.error.message;
+  EXPECT_TRUE(file.error.message.starts_with("a.csv")) << file.error.message;
+  EXPECT_EQ(file.error.message.find('\n'), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -87,14 +87,15 @@ TEST(PointsCsv, IgnoresTheLocale) {
 
 TEST(PointsCsv, ReadsReferenceFiles) {
   const PointsFile file = read_points_csv(BLADEFIT_TEST_DATA "/dtmb4119/points.csv", 1);
-  ASSERT_EQ(file.error, "");
+  ASSERT_EQ(file.error.message, "");
   EXPECT_EQ(file.points.size(), 2000U);
   EXPECT_EQ(file.points.back().sequence, 2000U);
 }
 
 TEST(PointsCsv, NamesAFileThatCannotBeRead) {
-  EXPECT_NE(read_points_csv("/nonexistent/a.csv", 1).error.find("/nonexistent/a.csv: No such file"), std::string::npos);
-  EXPECT_NE(read_points_csv("/tmp", 1).error.find("/tmp: Is a directory"), std::string::npos);
+  EXPECT_NE(read_points_csv("/nonexistent/a.csv", 1).error.message.find("/nonexistent/a.csv: No such file"),
+            std::string::npos);
+  EXPECT_NE(read_points_csv("/tmp", 1).error.message.find("/tmp: Is a directory"), std::string::npos);
 }
 
 }  // namespace

@@ -65,13 +65,12 @@ class Cable {
 
 std::string point_line(int sequence) { return encode_line("PT," + std::to_string(sequence) + ",1.25,2,3,0,0,1,9"); }
 
-SourceSettings serial_settings(const Cable& cable) {
-  SourceSettings settings;
-  settings.kind = SourceKind::serial;
+SerialSettings serial_settings(const Cable& cable) {
+  SerialSettings settings;
   settings.line.device = cable.device;
-  settings.serial.start_interval = milliseconds(50);
-  settings.serial.open_timeout = milliseconds(300);
-  settings.serial.reconnect_first = milliseconds(10);
+  settings.start_interval = milliseconds(50);
+  settings.open_timeout = milliseconds(300);
+  settings.reconnect_first = milliseconds(10);
   return settings;
 }
 
@@ -148,8 +147,8 @@ TEST(SerialSource, ComesBackAfterTheCableWasPulled) {
 
 TEST(SerialSource, TakesItsEchoOut) {
   const Cable cable;
-  SourceSettings settings = serial_settings(cable);
-  settings.serial.echo = true;
+  SerialSettings settings = serial_settings(cable);
+  settings.echo = true;
   const auto source = make_source(settings);
   std::thread machine([&cable] {
     std::this_thread::sleep_for(milliseconds(20));
@@ -163,12 +162,12 @@ TEST(SerialSource, TakesItsEchoOut) {
 
 TEST(SerialSourceErrors, NameTheDeviceAndTheMend) {
   const Cable cable;
-  const SourceSettings settings = serial_settings(cable);
-  const auto opened = [](const SourceSettings& wanted) { return make_source(wanted)->open(0, 0).message; };
+  const SerialSettings settings = serial_settings(cable);
+  const auto opened = [](const SerialSettings& wanted) { return make_source(wanted)->open(0, 0).message; };
   const std::string mute = opened(settings);
   EXPECT_EQ(mute,
             "serial:" + cable.device + ": the device does not answer $START; switch it on, or correct baud and parity");
-  SourceSettings other = settings;
+  SerialSettings other = settings;
   other.line.device = "/dev/nonexistent";
   EXPECT_NE(opened(other).find("serial:/dev/nonexistent: there is no such port"), std::string::npos);
   other.line.device = "/tmp";
@@ -183,10 +182,9 @@ TEST(SerialSourceErrors, NameTheDeviceAndTheMend) {
 
 TEST(DroSource, NumbersItsPoints) {
   Cable cable;
-  SourceSettings settings;
-  settings.kind = SourceKind::dro;
+  DroSettings settings;
   settings.line.device = cable.device;
-  settings.dro.reconnect_first = milliseconds(10);
+  settings.reconnect_first = milliseconds(10);
   const auto source = make_source(settings);
   ASSERT_EQ(source->open(5, 0).message, "");
   cable.write("0.5 Z 1\r\nX 1 Y 2 Z 3\r\n# note\r\nX 1 Y 2 Z 4\n\r");
@@ -211,9 +209,8 @@ TEST(DroSource, NumbersItsPoints) {
 }
 
 TEST(ReplaySource, DeliversTheFileAndFinishes) {
-  SourceSettings settings;
-  settings.kind = SourceKind::replay;
-  settings.replay.file = BLADEFIT_TEST_DATA "/dtmb4119/subsets/050.csv";
+  ReplaySettings settings;
+  settings.file = BLADEFIT_TEST_DATA "/dtmb4119/subsets/050.csv";
   const auto source = make_source(settings);
   ASSERT_EQ(source->open(0, 0).message, "");
   const std::uint32_t run = source->status().run_id;
@@ -224,7 +221,7 @@ TEST(ReplaySource, DeliversTheFileAndFinishes) {
   EXPECT_EQ(collect(*source, 2), (Sequences{49, 50}));
   EXPECT_EQ(source->status().run_id, run);
   EXPECT_NE(source->open(51, 0).message.find("has 50 points, but the session already holds 51"), std::string::npos);
-  settings.replay.file = "/nonexistent.csv";
+  settings.file = "/nonexistent.csv";
   EXPECT_NE(make_source(settings)->open(0, 0).message.find("/nonexistent.csv: No such file"), std::string::npos);
 }
 

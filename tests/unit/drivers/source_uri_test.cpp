@@ -4,6 +4,7 @@
 
 #include "drivers/make_source.hpp"
 #include "drivers/source/back_off.hpp"
+#include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
 
 namespace bladefit {
@@ -11,7 +12,7 @@ namespace {
 
 struct GoodUri {
   const char* uri;
-  SourceKind kind;
+  std::string_view word;
   const char* name;
 };
 
@@ -19,19 +20,19 @@ class GoodUris : public testing::TestWithParam<GoodUri> {};
 
 TEST_P(GoodUris, AreUnderstoodAndNamed) {
   SourceSettings settings;
-  ASSERT_EQ(apply_source_uri(GetParam().uri, settings), "");
-  EXPECT_EQ(settings.kind, GetParam().kind);
+  ASSERT_EQ(apply_source_uri(GetParam().uri, settings).message, "");
+  EXPECT_EQ(protocol_of(settings)->word, GetParam().word);
   EXPECT_EQ(source_name(settings), GetParam().name);
   EXPECT_NE(make_source(settings), nullptr);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, GoodUris,
-    testing::Values(GoodUri{"modbus-tcp://localhost:1502", SourceKind::modbus_tcp, "modbus-tcp://localhost:1502"},
-                    GoodUri{"modbus-tcp://[::1]:502", SourceKind::modbus_tcp, "modbus-tcp://[::1]:502"},
-                    GoodUri{"modbus-rtu:/dev/ttyUSB0", SourceKind::modbus_rtu, "modbus-rtu:/dev/ttyUSB0"},
-                    GoodUri{"serial:/dev/serial/by-id/a:b", SourceKind::serial, "serial:/dev/serial/by-id/a:b"},
-                    GoodUri{"replay:points.csv", SourceKind::replay, "replay:points.csv"}));
+    testing::Values(GoodUri{"modbus-tcp://localhost:1502", "modbus-tcp", "modbus-tcp://localhost:1502"},
+                    GoodUri{"modbus-tcp://[::1]:502", "modbus-tcp", "modbus-tcp://[::1]:502"},
+                    GoodUri{"modbus-rtu:/dev/ttyUSB0", "modbus-rtu", "modbus-rtu:/dev/ttyUSB0"},
+                    GoodUri{"serial:/dev/serial/by-id/a:b", "serial", "serial:/dev/serial/by-id/a:b"},
+                    GoodUri{"replay:points.csv", "replay", "replay:points.csv"}));
 
 struct BadUri {
   const char* uri;
@@ -42,10 +43,10 @@ class BadUris : public testing::TestWithParam<BadUri> {};
 
 TEST_P(BadUris, NameThePartAndTheMend) {
   SourceSettings settings;
-  const std::string error = apply_source_uri(GetParam().uri, settings);
+  const std::string error = apply_source_uri(GetParam().uri, settings).message;
   EXPECT_NE(error.find(GetParam().error), std::string::npos) << error;
   EXPECT_NE(error.find(GetParam().uri), std::string::npos) << error;
-  EXPECT_EQ(settings.kind, SourceKind::none);
+  EXPECT_EQ(protocol_of(settings), nullptr);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -61,17 +62,36 @@ INSTANTIATE_TEST_SUITE_P(
                     BadUri{"replay:", "file is missing"}));
 
 TEST(SourceUri, KeepsTheFormatAndMapOfADeviceFile) {
-  SourceSettings settings;
-  settings.kind = SourceKind::dro;
-  ASSERT_EQ(apply_source_uri("serial:/dev/ttyS1", settings), "");
-  EXPECT_EQ(settings.kind, SourceKind::dro);
-  EXPECT_EQ(settings.line.device, "/dev/ttyS1");
-  settings.kind = SourceKind::modbus_rtu;
-  settings.modbus.unit = 7;
-  ASSERT_EQ(apply_source_uri("modbus-tcp://a:1", settings), "");
-  EXPECT_EQ(settings.kind, SourceKind::modbus_tcp);
-  EXPECT_EQ(settings.modbus.unit, 7);
-  EXPECT_NE(apply_source_uri("serial:/dev/ttyS1", settings).find("another transport"), std::string::npos);
+  SourceSettings read_out(std::in_place_type<DroSettings>);
+  ASSERT_EQ(apply_source_uri("serial:/dev/ttyS1", read_out).message, "");
+  ASSERT_TRUE(std::holds_alternative<DroSettings>(read_out));
+  EXPECT_EQ(std::get<DroSettings>(read_out).line.device, "/dev/ttyS1");
+  ModbusSettings modbus;
+  modbus.transport = ModbusTransport::rtu;
+  modbus.unit = 7;
+  SourceSettings settings(modbus);
+  ASSERT_EQ(apply_source_uri("modbus-tcp://a:1", settings).message, "");
+  EXPECT_EQ(source_name(settings), "modbus-tcp://a:1");
+  EXPECT_EQ(std::get<ModbusSettings>(settings).unit, 7);
+  EXPECT_NE(apply_source_uri("serial:/dev/ttyS1", settings).message.find("another transport"), std::string::npos);
+}
+
+TEST(SourceProtocols, EachOwnsItsDefaultsAndNoOtherDoes) {
+  for (const SourceProtocol& protocol : source_protocols()) {
+    const SourceSettings settings = protocol.defaults();
+    EXPECT_EQ(protocol_of(settings), &protocol) << protocol.word;
+    EXPECT_TRUE(protocol.accepts(settings)) << protocol.word;
+    EXPECT_EQ(find_protocol(protocol.word), &protocol);
+    for (const SourceProtocol& other : source_protocols()) {
+      EXPECT_EQ(other.owns(settings), &other == &protocol) << protocol.word << " and " << other.word;
+    }
+  }
+  EXPECT_EQ(find_protocol("ftp"), nullptr);
+}
+
+TEST(SourceProtocols, AreListedForHelp) {
+  EXPECT_EQ(source_words(), "modbus-tcp, modbus-rtu, serial, dro or replay");
+  EXPECT_EQ(source_uri_forms(), "modbus-tcp://HOST:PORT, modbus-rtu:DEVICE, serial:DEVICE or replay:FILE.csv");
 }
 
 TEST(MakeSource, MakesNothingOfNoKind) { EXPECT_EQ(make_source(SourceSettings{}), nullptr); }

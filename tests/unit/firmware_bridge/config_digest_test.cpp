@@ -75,8 +75,8 @@ TEST(ConfigDigest, JournalsOfTheVersionBeforeAreRefusedInOneLine) {
   header.version = 3;
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(&header), sizeof header);
   JournalContent content;
-  const HostError error = read_journal(path, content);
-  EXPECT_EQ(error.fault, Fault::bad_input);
+  const Failure error = read_journal(path, content);
+  EXPECT_EQ(error.kind, Failure::Kind::bad_input);
   EXPECT_FALSE(content.exists);
   EXPECT_EQ(error.message, path +
                                ": journal of format version 3, whose check of the settings left out some of them; "

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 
+#include "firmware_bridge/host/fit/recent_alarms.hpp"
 #include "tests/unit/firmware_bridge/fixtures.hpp"
 
 namespace bladefit {
@@ -14,7 +16,7 @@ using testing::blade;
 using testing::blade_config;
 using testing::measured_points;
 
-TEST(BridgeFitStream, ResetForgetsEverything) {
+TEST(BridgeFitStream, ResetForgetsEverythingAndAReplayGivesTheSameBits) {
   const LocalizerConfig config = blade_config();
   std::vector<std::byte> memory(Localizer::memory_required(config) + 64);
   void* start = memory.data();
@@ -38,6 +40,35 @@ TEST(BridgeFitStream, ResetForgetsEverything) {
   EXPECT_EQ(localizer->fit().points, 0U);
   feed();
   EXPECT_EQ(std::bit_cast<std::uint64_t>(localizer->fit().rms_mm), std::bit_cast<std::uint64_t>(first.rms_mm));
+  std::vector<StreamEvent> events = {{EventKind::finished, {}}, {EventKind::reset, {}}};
+  for (const ProbePoint& point : measured_points(100)) events.push_back({EventKind::point, point});
+  stream.replay(events);
+  EXPECT_EQ(localizer->fit().points, 100U);
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(localizer->fit().rms_mm), std::bit_cast<std::uint64_t>(first.rms_mm));
+}
+
+TEST(BridgeRecentAlarms, KeepTheNewestLeadingEdgePointsThatAreOut) {
+  RecentAlarms alarms;
+  const auto note = [&alarms](std::uint32_t sequence, PointState state, Region region) {
+    Verdict verdict;
+    verdict.sequence = sequence;
+    verdict.state = state;
+    verdict.region = region;
+    alarms.note(verdict);
+  };
+  note(1, PointState::in, Region::leading_edge);
+  note(2, PointState::out, Region::rest);
+  EXPECT_EQ(std::ranges::count(alarms.sequences(), 0U), std::ptrdiff_t{RecentAlarms::kMost});
+  for (std::uint32_t sequence = 3; sequence < 3 + RecentAlarms::kMost; ++sequence) {
+    note(sequence, PointState::out, Region::leading_edge);
+  }
+  note(3, PointState::out, Region::leading_edge);
+  EXPECT_EQ(std::ranges::count(alarms.sequences(), 3U), 1) << "it is there already";
+  note(100, PointState::out, Region::leading_edge);
+  EXPECT_EQ(std::ranges::count(alarms.sequences(), 3U), 0) << "the oldest makes room";
+  EXPECT_EQ(std::ranges::count(alarms.sequences(), 100U), 1);
+  alarms.clear();
+  EXPECT_EQ(std::ranges::count(alarms.sequences(), 0U), std::ptrdiff_t{RecentAlarms::kMost});
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ inline const DesignImage& blade() { return reference_design("dtmb4119").image();
 /// The first `count` measured points of the case.
 inline std::vector<ProbePoint> measured_points(std::size_t count) {
   PointsFile file = read_points_csv(std::string(BLADEFIT_TEST_DATA) + "/dtmb4119/points.csv", 1.0);
-  if (!file.error.empty() || file.points.size() < count) std::abort();
+  if (file.error || file.points.size() < count) std::abort();
   file.points.resize(count);
   return file.points;
 }
@@ -56,8 +56,8 @@ class ScriptedSource : public ProbeSource {
   explicit ScriptedSource(std::vector<ProbePoint> points, unsigned seed = 1)
       : points_(std::move(points)), seed_(seed) {}
 
-  [[nodiscard]] SourceError open(std::uint32_t after, std::uint32_t /*run_id*/) override {
-    if (!refusal.empty()) return {refusal};
+  [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t /*run_id*/) override {
+    if (!refusal.empty()) return device_failure(refusal);
     while (next_ < points_.size() && points_[next_].sequence <= after) ++next_;
     opened_after = after;
     status_.link = LinkState::up;

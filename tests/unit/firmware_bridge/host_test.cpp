@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "tests/unit/firmware_bridge/fixtures.hpp"
 
 namespace bladefit {
@@ -24,7 +25,7 @@ constexpr std::size_t kPoints = 400;
 
 SessionResult run_to_end(const HostSettings& settings, ProbeSource& source) {
   Host host(settings, blade(), source, {});
-  const HostError error = host.start();
+  const Failure error = host.start();
   if (error) {
     SessionResult failed;
     failed.end = SessionEnd::failed;
@@ -131,7 +132,7 @@ TEST(BridgeHost, RefusesASessionOfOtherSettings) {
   HostSettings other = settings;
   other.localizer.tolerance.leading_edge_mm = 0.11;
   ScriptedSource again(measured_points(50));
-  EXPECT_EQ(run_to_end(other, again).error.fault, Fault::bad_input);
+  EXPECT_EQ(run_to_end(other, again).error.kind, Failure::Kind::bad_input);
 }
 
 /// Two runs; 0 is one like any other.
@@ -152,7 +153,7 @@ TEST_P(BridgeHostRuns, ASessionOfAnotherRunIsRefused) {
   ScriptedSource another_run(measured_points(50));
   another_run.run_id = GetParam().to;
   const SessionResult refused = run_to_end(settings, another_run);
-  EXPECT_EQ(refused.error.fault, Fault::bad_input);
+  EXPECT_EQ(refused.error.kind, Failure::Kind::bad_input);
   const std::string told = "run " + std::to_string(GetParam().to);
   EXPECT_NE(refused.error.message.find(told), std::string::npos) << refused.error.message;
 }
@@ -164,7 +165,7 @@ TEST_P(BridgeHostRuns, ARunThatRestartsItsNumbersIsAFault) {
   source.run_id = GetParam().from;
   source.later_run_id = GetParam().to;
   const SessionResult result = run_to_end(settings_for(folder / "session"), source);
-  EXPECT_EQ(result.error.fault, Fault::device);
+  EXPECT_EQ(result.error.kind, Failure::Kind::device);
   const std::string told = "started run " + std::to_string(GetParam().to);
   EXPECT_NE(result.error.message.find(told), std::string::npos) << result.error.message;
   EXPECT_EQ(result.points.size(), 20U);
@@ -175,7 +176,7 @@ TEST(BridgeHost, ASourceThatCannotBeOpenedLeavesNothingBehind) {
   ScriptedSource source(measured_points(10));
   source.refusal = "the cable is out; put it in";
   const SessionResult result = run_to_end(settings_for(folder / "session"), source);
-  EXPECT_EQ(result.error.fault, Fault::device);
+  EXPECT_EQ(result.error.kind, Failure::Kind::device);
   EXPECT_EQ(result.error.message, source.refusal);
   EXPECT_EQ(result.end, SessionEnd::failed);
 }
@@ -194,7 +195,7 @@ TEST(BridgeHost, AFullDiskIsAFaultAndNothingUnstoredIsAcknowledged) {
   const SessionResult result = run_to_end(settings, source);
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(result.end, SessionEnd::failed);
-  EXPECT_EQ(result.error.fault, Fault::device);
+  EXPECT_EQ(result.error.kind, Failure::Kind::device);
   EXPECT_NE(result.error.message.find("journal.bin"), std::string::npos);
   EXPECT_LE(source.acknowledged, kRoom);
   EXPECT_GE(result.points.size(), source.acknowledged);

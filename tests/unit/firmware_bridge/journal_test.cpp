@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "tests/unit/firmware_bridge/fixtures.hpp"
 
 namespace bladefit {
@@ -92,16 +93,16 @@ TEST(BridgeJournal, ADamagedBitAnywhereIsFound) {
     bytes[byte] = static_cast<char>(bytes[byte] ^ 0x10);
     write_whole(path, bytes);
     JournalContent content;
-    const HostError error = read_journal(path, content);
+    const Failure error = read_journal(path, content);
     if (byte < sizeof(JournalHeader)) {
-      ASSERT_EQ(error.fault, Fault::bad_input) << byte;
+      ASSERT_EQ(error.kind, Failure::Kind::bad_input) << byte;
       ASSERT_NE(error.message.find(path), std::string::npos);
       continue;
     }
     // Every record was a group of its own: damage of the last one is a torn write, and what is before it counts.
     const std::size_t record = (byte - sizeof(JournalHeader)) / sizeof(JournalRecord);
     if (record < 3) {
-      ASSERT_EQ(error.fault, Fault::bad_input) << byte;
+      ASSERT_EQ(error.kind, Failure::Kind::bad_input) << byte;
       ASSERT_NE(error.message.find("record " + std::to_string(record + 1)), std::string::npos) << error.message;
       ASSERT_EQ(read_whole(path), bytes);
       continue;
@@ -149,8 +150,8 @@ TEST(BridgeJournal, DamageLongBeforeTheEndIsNoTornTail) {
   bytes[sizeof(JournalHeader) + 16 * sizeof(JournalRecord) + 3] ^= 1;
   write_whole(path, bytes);
   JournalContent content;
-  const HostError error = read_journal(path, content);
-  EXPECT_EQ(error.fault, Fault::bad_input);
+  const Failure error = read_journal(path, content);
+  EXPECT_EQ(error.kind, Failure::Kind::bad_input);
   EXPECT_NE(error.message.find("record 17"), std::string::npos) << error.message;
 }
 
@@ -159,7 +160,7 @@ TEST(BridgeJournal, RefusesForeignFilesAndOtherVersions) {
   const std::string path = folder / "journal.bin";
   JournalContent content;
   write_whole(path, std::string(100, 'x'));
-  EXPECT_EQ(read_journal(path, content).fault, Fault::bad_input);
+  EXPECT_EQ(read_journal(path, content).kind, Failure::Kind::bad_input);
   JournalHeader header = make_journal_header(kIdentity, kRun);
   header.version = kJournalVersion + 1;
   write_whole(path, std::string(reinterpret_cast<const char*>(&header), sizeof header));
@@ -173,7 +174,7 @@ TEST(BridgeJournal, IsHeldByOneHostAtATime) {
   const std::string path = folder / "journal.bin";
   Journal first, second;
   ASSERT_FALSE(first.open(path));
-  EXPECT_EQ(second.open(path).fault, Fault::bad_input);
+  EXPECT_EQ(second.open(path).kind, Failure::Kind::bad_input);
 }
 
 TEST(BridgeJournal, LeavesNothingBehindWithoutAHeader) {

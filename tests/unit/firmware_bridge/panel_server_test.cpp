@@ -10,6 +10,7 @@
 #include <memory>
 #include <thread>
 
+#include "firmware_bridge/host/panel/panel_address.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/threads/wakeup.hpp"
 #include "tests/support/panel_state.hpp"
@@ -41,14 +42,14 @@ class ServedPanel {
     wakeup_.signal();
     if (thread_.joinable()) thread_.join();
   }
-  [[nodiscard]] const HostError& error() const { return error_; }
+  [[nodiscard]] const Failure& error() const { return error_; }
   [[nodiscard]] std::uint16_t port() const { return server_.port(); }
   [[nodiscard]] int acknowledged() const { return acknowledged_.load(); }
 
  private:
   PanelServer server_;
   Wakeup wakeup_;
-  HostError error_;
+  Failure error_;
   std::atomic<bool> stop_{false};
   std::atomic<int> acknowledged_{0};
   std::thread thread_;
@@ -189,10 +190,10 @@ TEST(BridgePanelServer, LetsInOnlyWhoIsOnTheList) {
 TEST(BridgePanelServer, NamesAPortInUseAndAnAddressThatIsNone) {
   const ServedPanel first;
   const ServedPanel second({.port = first.port()});
-  EXPECT_EQ(second.error().fault, Fault::device);
+  EXPECT_EQ(second.error().kind, Failure::Kind::device);
   EXPECT_NE(second.error().message.find(std::to_string(first.port())), std::string::npos);
   const ServedPanel nowhere({.host = "no.such.host.invalid", .port = 0});
-  EXPECT_EQ(nowhere.error().fault, Fault::bad_input);
+  EXPECT_EQ(nowhere.error().kind, Failure::Kind::bad_input);
 }
 
 TEST(BridgePanelAddress, IsHostAndPort) {

@@ -31,7 +31,7 @@ class WatchedSession {
     PanelClient client("127.0.0.1", host_.panel_port());
     const auto deadline = std::chrono::steady_clock::now() + 20s;
     while (std::chrono::steady_clock::now() < deadline) {
-      if (client.read(panel).empty() && wanted(panel)) return true;
+      if (!client.read(panel) && wanted(panel)) return true;
       std::this_thread::sleep_for(5ms);
     }
     return false;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
 
 /// Session folders as `bladefit run` leaves them, made by hand.

@@ -36,12 +36,11 @@ Row parse_row(const CsvRow& cells) {
       row.section = cells.cells[k];
       continue;
     }
-    std::string error;
-    const std::optional<double> value = finite_cell(cells, k, kFormat, error);
-    if (!value) throw ToolError(error);
+    double value = 0;
+    if (const Failure failure = finite_cell(cells, k, kFormat, value)) throw ToolError(failure);
     if (column == index_column) row.index = value;
     if (column == radius_column) row.radius = value;
-    if (column >= x_column && column <= z_column) row.point[static_cast<Eigen::Index>(column - x_column)] = *value;
+    if (column >= x_column && column <= z_column) row.point[static_cast<Eigen::Index>(column - x_column)] = value;
   }
   if (row.section.empty()) fail(cells.place, "column section: it is empty; give each section a name or a number");
   return row;
@@ -89,11 +88,11 @@ BladeSections parse_sections_csv(std::string_view text, const std::string& name)
   BladeSections result;
   result.file = name;
   SectionCollector collector(result);
-  const std::string error = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
+  const Failure failure = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
     collector.take(row.place, parse_row(row));
-    return std::string();
+    return Failure();
   });
-  if (!error.empty()) throw ToolError(error);
+  if (failure) throw ToolError(failure);
   if (result.sections.empty()) {
     throw ToolError(fmt::format("{}: there is no point in the file; add a line for each point", name));
   }
