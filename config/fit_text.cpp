@@ -40,8 +40,8 @@ Failure parse_lock(std::string_view text, std::uint8_t& locked) {
     rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
     const auto* known = std::find(kDegreesOfFreedom.begin(), kDegreesOfFreedom.end(), name);
     if (known == kDegreesOfFreedom.end()) {
-      return {
-          fmt::format("'{}' is no degree of freedom; write some of tx,ty,tz,rx,ry,rz with commas between them", name)};
+      return bad_input(
+          fmt::format("'{}' is no degree of freedom; write some of tx,ty,tz,rx,ry,rz with commas between them", name));
     }
     read |= 1U << static_cast<unsigned>(known - kDegreesOfFreedom.begin());
   }
