@@ -239,7 +239,7 @@ int main(int count, char** words) {
   for (const std::string& name : reference_case_names()) {
     const ReferenceCase c = read_case(name);
     const CompiledDesign design(compile_case(c));
-    const std::vector<ProbePoint> points = points_of(c, "full");
+    const auto points = points_of(c, "full");
     program.modes(c, design.image(), points);
     if (name == "dtmb4119") program.choices(c, design.image(), points);
   }

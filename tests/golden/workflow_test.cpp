@@ -13,6 +13,7 @@
 #include "tests/support/json_file.hpp"
 #include "tests/support/reference_case.hpp"
 #include "tools/design/load_design.hpp"
+#include "tools/design/read_design.hpp"
 
 namespace bladefit::testing {
 namespace {

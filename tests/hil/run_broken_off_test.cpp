@@ -24,7 +24,7 @@ void expect_broken_off(Process& run, const ScratchFolder& scratch, const std::st
   }
 }
 
-class RunBrokenOff : public testing::TestWithParam<Link> {};
+class RunBrokenOff : public ::testing::TestWithParam<Link> {};
 
 TEST_P(RunBrokenOff, ByAMachineThatIsGoneForGood) {
   const ScratchFolder scratch;
@@ -37,7 +37,7 @@ TEST_P(RunBrokenOff, ByAMachineThatIsGoneForGood) {
   expect_broken_off(run, scratch, "the link is lost and did not come back");
 }
 
-INSTANTIATE_TEST_SUITE_P(Links, RunBrokenOff, testing::Values(Link::modbus_tcp, Link::modbus_rtu, Link::serial),
+INSTANTIATE_TEST_SUITE_P(Links, RunBrokenOff, ::testing::Values(Link::modbus_tcp, Link::modbus_rtu, Link::serial),
                          [](const auto& tested) {
                            std::string name = name_of(tested.param);
                            std::replace(name.begin(), name.end(), '-', '_');

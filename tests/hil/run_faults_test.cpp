@@ -31,7 +31,7 @@ struct FaultySession {
   Process run;
 };
 
-class RunFaults : public testing::TestWithParam<Link> {};
+class RunFaults : public ::testing::TestWithParam<Link> {};
 
 TEST_P(RunFaults, EveryFaultAloneAndAllTogetherLeaveTheResultBitForBit) {
   const std::string clean = clean_result(GetParam(), kFewPoints);
@@ -51,7 +51,7 @@ TEST_P(RunFaults, EveryFaultAloneAndAllTogetherLeaveTheResultBitForBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Links, RunFaults, testing::Values(Link::modbus_tcp, Link::modbus_rtu, Link::serial),
+INSTANTIATE_TEST_SUITE_P(Links, RunFaults, ::testing::Values(Link::modbus_tcp, Link::modbus_rtu, Link::serial),
                          [](const auto& tested) {
                            std::string name = name_of(tested.param);
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -15,13 +15,13 @@ std::string same_place(Link link, const SimulatedMachine& machine) {
   return link == Link::modbus_tcp ? std::to_string(machine.port()) : machine.address();
 }
 
-std::string test_name(const testing::TestParamInfo<Link>& tested) {
+std::string test_name(const ::testing::TestParamInfo<Link>& tested) {
   std::string name = name_of(tested.param);
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 
-class RunSession : public testing::TestWithParam<Link> {};
+class RunSession : public ::testing::TestWithParam<Link> {};
 
 void expect_agreement(const std::string& result, const std::string& truth) {
   const ScratchFolder scratch;
@@ -85,7 +85,7 @@ TEST_P(RunSession, EndsCleanlyOnInterrupt) {
   EXPECT_LT(result.at("points").size(), 2000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Links, RunSession, testing::Values(Link::modbus_tcp, Link::modbus_rtu, Link::serial),
+INSTANTIATE_TEST_SUITE_P(Links, RunSession, ::testing::Values(Link::modbus_tcp, Link::modbus_rtu, Link::serial),
                          test_name);
 
 }  // namespace

@@ -1,18 +1,16 @@
 #pragma once
-#include <nlohmann/json.hpp>
-
 #include <bit>
 #include <string>
 #include <vector>
 
 #include "tests/hil/raw_readers.hpp"
+#include "tests/support/json_file.hpp"
 #include "tests/support/process.hpp"
 
 /// Sessions of `bladefit run` against `bladefit simulate`, both as real processes.
 namespace bladefit::hil {
 
 inline const std::string kBlade = data_file("dtmb4119/design.igs");
-inline const std::string kFewPoints = data_file("dtmb4119/subsets/200.csv");
 inline const std::string kAllPoints = data_file("dtmb4119/points.csv");
 
 enum class Link { modbus_tcp, modbus_rtu, serial };

@@ -8,6 +8,8 @@
 
 namespace bladefit::hil {
 
+inline const std::string kFewPoints = data_file("dtmb4119/subsets/200.csv");
+
 /// `bladefit simulate` with these options, up and serving.
 class SimulatedMachine {
  public:

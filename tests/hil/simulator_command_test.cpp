@@ -6,8 +6,6 @@
 namespace bladefit::hil {
 namespace {
 
-const std::string kPoints = data_file("dtmb4119/subsets/200.csv");
-
 /// Runs the command to its end and expects one line on standard error that holds `words`.
 void expect_refusal(const std::vector<std::string>& options, int exit_code, const std::string& words) {
   SCOPED_TRACE(words);
@@ -20,7 +18,7 @@ void expect_refusal(const std::vector<std::string>& options, int exit_code, cons
 }
 
 std::vector<std::string> tcp(const std::vector<std::string>& more) {
-  return std::vector<std::string>{"--points", kPoints, "--transport", "modbus-tcp"} + more;
+  return std::vector<std::string>{"--points", kFewPoints, "--transport", "modbus-tcp"} + more;
 }
 
 TEST(SimulatorCommand, RefusesWrongOptions) {
@@ -34,7 +32,7 @@ TEST(SimulatorCommand, RefusesWrongOptions) {
   expect_refusal(tcp({"--faults", "delay=0.1:20s"}), 2, "delay=0.1:20s");
   expect_refusal(tcp({"--faults", "seed=x"}), 2, "seed=x");
   expect_refusal(tcp({"--stamp", "/nowhere/stamps"}), 2, "--stamp /nowhere/stamps");
-  expect_refusal({"--points", kPoints, "--transport", "modbus-rtu", "--unit", "300"}, 2, "--unit 300");
+  expect_refusal({"--points", kFewPoints, "--transport", "modbus-rtu", "--unit", "300"}, 2, "--unit 300");
 }
 
 TEST(SimulatorCommand, RefusesBadPoints) {
@@ -78,16 +76,17 @@ TEST(SimulatorCommand, ABusyPortOrDeviceIsADeviceFailure) {
   expect_refusal(tcp({"--port", std::to_string(machine.port())}), 3, "Address already in use");
   ScratchFolder scratch;
   std::ofstream(scratch / "file") << "somebody's";
-  expect_refusal({"--points", kPoints, "--transport", "serial", "--device", scratch / "file"}, 3,
+  expect_refusal({"--points", kFewPoints, "--transport", "serial", "--device", scratch / "file"}, 3,
                  "is not a symbolic link");
   EXPECT_EQ(read_whole(scratch / "file"), "somebody's");
-  expect_refusal({"--points", kPoints, "--transport", "serial", "--device", scratch / "none/cmm"}, 3,
+  expect_refusal({"--points", kFewPoints, "--transport", "serial", "--device", scratch / "none/cmm"}, 3,
                  "cannot make the link");
 }
 
 TEST(SimulatorCommand, TakesOverTheLinkOfAKilledMachine) {
   ScratchFolder scratch;
-  const std::vector<std::string> options = {"--points", kPoints, "--transport", "serial", "--device", scratch / "cmm"};
+  const std::vector<std::string> options = {"--points", kFewPoints, "--transport",
+                                            "serial",   "--device", scratch / "cmm"};
   SimulatedMachine killed(options);
   killed.process().power_off();
   EXPECT_TRUE(std::filesystem::is_symlink(scratch / "cmm"));

@@ -6,9 +6,7 @@
 namespace bladefit::hil {
 namespace {
 
-const std::string kPoints = data_file("dtmb4119/subsets/200.csv");
-
-std::vector<std::string> tcp_options(const std::vector<std::string>& more, const std::string& points = kPoints,
+std::vector<std::string> tcp_options(const std::vector<std::string>& more, const std::string& points = kFewPoints,
                                      int port = 0) {
   return std::vector<std::string>{"--points", points, "--transport", "modbus-tcp", "--port", std::to_string(port)} +
          more;
@@ -39,7 +37,7 @@ TEST(SimulatorModbus, EveryPointComesOnceAskedForInOrderAndExact) {
   const RawModbus reader = RawModbus::tcp(machine.port());
   EXPECT_EQ(reader.newest(), 0U);
   ASSERT_TRUE(reader.command(1));
-  const std::vector<RawPoint> points = read_raw_points(kPoints);
+  const std::vector<RawPoint> points = read_raw_points(kFewPoints);
   ASSERT_EQ(points.size(), 200U);
   for (std::uint32_t sequence = 1; sequence <= points.size(); ++sequence) {
     ASSERT_TRUE(eventually([&] { return reader.newest() >= sequence; }, 2s)) << sequence;
@@ -107,7 +105,7 @@ TEST(SimulatorModbus, RestartsFromTheAcknowledgedRecordEvenAfterAPowerCut) {
   }
   machine->process().power_off();
   machine.reset();
-  machine.emplace(tcp_options({"--rate", "0", "--capacity", "10"}, kPoints, port));
+  machine.emplace(tcp_options({"--rate", "0", "--capacity", "10"}, kFewPoints, port));
   const RawModbus reader = RawModbus::tcp(port);
   reader.acknowledge(20);
   reader.command(3);
@@ -177,9 +175,9 @@ TEST(SimulatorModbus, FaultDisconnectClosesTheLink) {
 TEST(SimulatorModbus, RtuServesTheSameMapAndALinkThatOutlivesAHangUp) {
   ScratchFolder scratch;
   const std::string device = scratch / "cmm";
-  SimulatedMachine machine({"--points", kPoints, "--transport", "modbus-rtu", "--device", device, "--rate", "0"});
+  SimulatedMachine machine({"--points", kFewPoints, "--transport", "modbus-rtu", "--device", device, "--rate", "0"});
   EXPECT_EQ(machine.address(), device);
-  const std::vector<RawPoint> points = read_raw_points(kPoints);
+  const std::vector<RawPoint> points = read_raw_points(kFewPoints);
   for (int visit = 0; visit < 2; ++visit) {
     const RawModbus reader = RawModbus::rtu(device);
     ASSERT_TRUE(reader.command(1));
@@ -195,7 +193,7 @@ TEST(SimulatorModbus, RtuServesTheSameMapAndALinkThatOutlivesAHangUp) {
 
 TEST(SimulatorModbus, RtuPassesOverNoiseAndOtherUnits) {
   ScratchFolder scratch;
-  SimulatedMachine machine({"--points", kPoints, "--transport", "modbus-rtu", "--device", scratch / "cmm"});
+  SimulatedMachine machine({"--points", kFewPoints, "--transport", "modbus-rtu", "--device", scratch / "cmm"});
   const RawModbus reader = RawModbus::rtu(scratch / "cmm");
   modbus_set_slave(reader.context(), 7);
   EXPECT_TRUE(reader.inputs(0, 12).empty());

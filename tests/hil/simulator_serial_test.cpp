@@ -8,12 +8,10 @@
 namespace bladefit::hil {
 namespace {
 
-const std::string kPoints = data_file("dtmb4119/subsets/200.csv");
-
 /// A machine on a line of its own.
 struct Line {
   explicit Line(const std::vector<std::string>& more)
-      : machine(std::vector<std::string>{"--points", kPoints, "--transport", "serial", "--device", scratch / "cmm"} +
+      : machine(std::vector<std::string>{"--points", kFewPoints, "--transport", "serial", "--device", scratch / "cmm"} +
                 more) {}
   ScratchFolder scratch;
   SimulatedMachine machine;
@@ -49,7 +47,7 @@ std::map<std::uint32_t, std::vector<std::string>> take_all(const std::string& de
 }
 
 void expect_all_points(const std::map<std::uint32_t, std::vector<std::string>>& taken) {
-  const std::vector<RawPoint> points = read_raw_points(kPoints);
+  const std::vector<RawPoint> points = read_raw_points(kFewPoints);
   ASSERT_EQ(taken.size(), points.size());
   for (const auto& [sequence, fields] : taken) {
     ASSERT_EQ(fields.size(), 9U);

@@ -15,7 +15,7 @@ using testing::ScratchFolder;
 using testing::ScriptedSource;
 using testing::settings_for;
 
-constexpr std::size_t kPoints = 400;
+constexpr std::size_t kSessionPoints = 400;
 constexpr int kAcknowledgeCoil = 3;
 
 /// A session that goes on until it is told to stop, and what its panel shows.
@@ -67,11 +67,11 @@ class WatchedSession {
 };
 
 TEST(SessionPanel, ShowsAFaultOfTheDevice) {
-  ScriptedSource source(measured_points(kPoints));
+  ScriptedSource source(measured_points(kSessionPoints));
   source.device_fault = true;
   WatchedSession session(source);
   EXPECT_TRUE(session.shows(
-      [](const PanelState& shown) { return shown.points == kPoints && shown.session == SessionState::fault; }));
+      [](const PanelState& shown) { return shown.points == kSessionPoints && shown.session == SessionState::fault; }));
   EXPECT_FALSE(session.stop().error);
 }
 
@@ -89,17 +89,18 @@ TEST(SessionPanel, ALossAfterTheAcknowledgedOneRaisesTheAlarmAgain) {
 }
 
 TEST(SessionPanel, ShowsTheSession) {
-  ScriptedSource source(measured_points(kPoints));
+  ScriptedSource source(measured_points(kSessionPoints));
   WatchedSession session(source);
-  ASSERT_TRUE(session.shows(
-      [](const PanelState& shown) { return shown.points == kPoints && shown.session == SessionState::settled; }));
+  ASSERT_TRUE(session.shows([](const PanelState& shown) {
+    return shown.points == kSessionPoints && shown.session == SessionState::settled;
+  }));
   const SessionResult result = session.stop();
   const PanelState& state = session.panel;
   EXPECT_EQ(state.leading_edge_out, result.report.leading_edge.judged_out);
   EXPECT_EQ(state.rest_out, result.report.rest.judged_out);
   EXPECT_EQ(state.rms, static_cast<float>(result.report.rms_mm));
   EXPECT_EQ(state.worst_leading_edge_sequence, result.report.leading_edge.worst_sequence);
-  EXPECT_EQ(state.last_sequence, kPoints);
+  EXPECT_EQ(state.last_sequence, kSessionPoints);
   EXPECT_EQ(state.determined, 6);
   EXPECT_GT(state.push_latency_us, 0.0F);
   for (const PanelPlace& place : state.newest) {

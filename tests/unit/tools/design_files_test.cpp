@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/geometry/surface/design_image.hpp"
+#include "tests/support/json_file.hpp"
 #include "tests/unit/tools/design_file_writing.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
 #include "tests/unit/tools/design_image_reading.hpp"

@@ -20,7 +20,7 @@ namespace {
 using testing::random_surface;
 using testing::ScratchFolder;
 
-const std::filesystem::path kData = BLADEFIT_TEST_DATA;
+const std::filesystem::path kDesigns = BLADEFIT_TEST_DATA;
 
 void expect_read_back(const NurbsSurface& read, const NurbsSurface& written) {
   EXPECT_EQ(read.u.knots, written.u.knots);
@@ -86,7 +86,7 @@ RC_GTEST_PROP(DesignWriter, MillimetresReadBackBitForBit, ()) {
 /// Designs in inches: the numbers of the first file come to stand in the second.
 TEST(DesignWriter, ReferenceDesignsReadBackBitForBit) {
   for (const char* name : {"arl_fan", "arl_3patch", "pnsy_sub", "dtmb4119"}) {
-    const DesignFile design = read_design(kData / name / "design.igs");
+    const DesignFile design = read_design(kDesigns / name / "design.igs");
     const ScratchFolder folder;
     const std::filesystem::path copy = folder.path() / "copy.igs";
     write_iges_design(copy, design.surfaces, design.unit);
