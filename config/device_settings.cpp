@@ -7,11 +7,11 @@
 #include "config/map_table.hpp"
 #include "config/table_reader.hpp"
 #include "drivers/modbus/cmm_header.hpp"
+#include "drivers/text/units.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr double kMmPerInch = 25.4;
 constexpr NumberRange kPause{1, 600000};  ///< [ms]
 
 void read_units(TableReader& table, double& mm_per_unit) {
