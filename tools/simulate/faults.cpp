@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kLongestDelayMs = 60000;
 
-[[noreturn]] void refuse(std::string_view item, std::string_view mend) {
-  throw Failure(kExitBadInput, fmt::format("--faults: `{}`: {}", item, mend));
+[[noreturn]] void refuse(std::string_view item, std::string_view fix) {
+  throw Failure(kExitBadInput, fmt::format("--faults: `{}`: {}", item, fix));
 }
 
 template <typename Number>
-Number parse_number(std::string_view item, std::string_view text, std::string_view mend) {
+Number parse_number(std::string_view item, std::string_view text, std::string_view fix) {
   Number number{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || text.empty()) refuse(item, mend);
+  if (error != std::errc() || end != text.data() + text.size() || text.empty()) refuse(item, fix);
   return number;
 }
 

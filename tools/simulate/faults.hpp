@@ -20,7 +20,7 @@ struct FaultSettings {
 };
 
 /// Reads a specification such as "drop=0.01,delay=0.05:200ms,disconnect=0.001,overflow,seed=7" on top of `defaults`.
-/// Throws Failure (bad input) that names the item and the mend.
+/// Throws Failure (bad input) that names the item and the fix.
 [[nodiscard]] FaultSettings parse_faults(std::string_view specification, const FaultSettings& defaults);
 
 enum class Fault : std::uint8_t { none, disconnect, drop, delay, corrupt, duplicate };
