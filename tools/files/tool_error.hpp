@@ -7,7 +7,7 @@
 namespace bladefit {
 
 /// Why a design could not be read, compiled or written. what() is one line that names the file, the entity, line or
-/// field, and the mend.
+/// field, and the fix.
 class ToolError : public std::runtime_error {
  public:
   enum class Kind {
