@@ -14,6 +14,7 @@
 #include "firmware_bridge/host/journal/config_digest.hpp"
 #include "firmware_bridge/host/journal/journal.hpp"
 #include "firmware_bridge/host/journal/journal_writer.hpp"
+#include "firmware_bridge/host/journal/session_file_names.hpp"
 #include "firmware_bridge/host/journal/session_folder.hpp"
 #include "firmware_bridge/host/panel/publication.hpp"
 
@@ -61,7 +62,7 @@ bool has_foot(const Verdict& verdict) { return !verdict.foot.normal.isZero(); }
 }  // namespace
 
 std::string journal_path(const std::string& session_directory) {
-  return (std::filesystem::path(session_directory) / "journal.bin").string();
+  return (std::filesystem::path(session_directory) / kJournalFile).string();
 }
 
 /// The fit of exactly the events on disk: where the disk failed, points were fitted that the result does not hold.
