@@ -8,6 +8,7 @@
 #include <functional>
 #include <tuple>
 
+#include "drivers/text/units.hpp"
 #include "tools/batch/start_pairs.hpp"
 
 namespace bladefit {
@@ -193,8 +194,7 @@ void add_fit_options(CLI::App& command, FitSettings& flags) {
       "angles psi, theta, phi of C = Rx(psi) Ry(theta) Rz(phi)")
       ->group(group);
   add(command, "--loss", flags.loss,
-      "none (default), huber or tukey: robust least squares, in which aberrant points pull less (huber) or not at all "
-      "(tukey)")
+      "none (default), huber or tukey: robust least squares, in which outliers pull less (huber) or not at all (tukey)")
       ->group(group);
   add(command, "--loss-scale", flags.loss_scale,
       "standard deviation of good points, in --units (default: 1.4826 times the median distance)")

@@ -12,8 +12,6 @@
 
 namespace bladefit {
 
-inline constexpr double kMmPerInch = 25.4;
-
 /// Adds the fit options that `localize` and `run` share; what is given on the command line goes to `flags`.
 void add_fit_options(CLI::App& command, FitSettings& flags);
 
@@ -37,7 +35,7 @@ struct FitPlan {
 [[nodiscard]] OutwardOption outward_of(const FitSettings& settings);
 
 /// Checks the settings against the design and turns lengths to mm. Throws ToolError (bad_input) that names the option
-/// and the mend.
+/// and the fix.
 [[nodiscard]] FitPlan plan_fit(const FitSettings& settings, const DesignImage& design);
 
 }  // namespace bladefit

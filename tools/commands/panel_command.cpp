@@ -26,7 +26,7 @@ int show_panel(const std::string& address) {
   }
   const StopFlag stop;
   PanelDisplay display(PanelClient(host, port));
-  // Later losses are mended by themselves: the host may be started again.
+  // Later losses are repaired by themselves: the host may be started again.
   if (const std::string error = display.turn(); !error.empty()) {
     fmt::print(stderr, "bladefit: {}\n", error);
     return kDeviceFailure;

@@ -11,8 +11,8 @@
 
 #include "config/device_settings.hpp"
 #include "drivers/source_uri.hpp"
+#include "firmware_bridge/host/journal/session_file_names.hpp"
 #include "tools/files/output_file.hpp"
-#include "tools/results/session_report.hpp"
 
 namespace bladefit {
 namespace {

@@ -29,7 +29,7 @@ struct RunPlan {
 };
 
 /// Reads the session file, lets the flags win, loads the design and checks everything that can be checked before the
-/// device is touched. Throws ToolError that names the option or file and the mend.
+/// device is touched. Throws ToolError that names the option or file and the fix.
 [[nodiscard]] RunPlan plan_run(const RunFlags& flags);
 
 }  // namespace bladefit

@@ -15,7 +15,7 @@ class PanelClient {
   PanelClient(std::string host, std::uint16_t port) : host_(std::move(host)), port_(port) {}
 
   /// Connects where it is not connected, and reads the whole map. Returns why that failed, in one line; empty = the
-  /// state was read. After a failure the connection is closed, and the next call connects anew. Takes at most about a
+  /// state was read. After a failure the connection is closed, and the next call connects again. Takes at most about a
   /// second.
   [[nodiscard]] std::string read(PanelState& state);
 
