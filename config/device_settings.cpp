@@ -8,11 +8,11 @@
 #include "config/table_reader.hpp"
 #include "drivers/modbus/cmm_header.hpp"
 #include "drivers/source_registry.hpp"
+#include "drivers/text/units.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr double kMmPerInch = 25.4;
 constexpr NumberRange kPause{1, 600000};  ///< [ms]
 
 template <typename Units>

@@ -15,6 +15,7 @@
 #include "firmware_bridge/host/journal/journal.hpp"
 #include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "firmware_bridge/host/journal/journal_writer.hpp"
+#include "firmware_bridge/host/journal/session_file_names.hpp"
 #include "firmware_bridge/host/journal/session_folder.hpp"
 #include "firmware_bridge/host/panel/publication.hpp"
 
@@ -61,7 +62,7 @@ Failure check_identity(const std::string& path, const JournalContent& recorded, 
 }  // namespace
 
 std::string journal_path(const std::string& session_directory) {
-  return (std::filesystem::path(session_directory) / "journal.bin").string();
+  return (std::filesystem::path(session_directory) / kJournalFile).string();
 }
 
 /// What exists while the threads run. The members that threads use come before the threads.

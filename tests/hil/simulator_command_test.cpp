@@ -42,22 +42,35 @@ TEST(SimulatorCommand, RefusesBadPoints) {
     std::ofstream(file) << content;
     expect_refusal({"--points", file, "--transport", "modbus-tcp", "--port", "0"}, 2, file + words);
   };
-  expect_bad("", ": no point");
-  expect_bad("x,y,z\n# none\n", ": no point");
-  expect_bad("x,y\n1,2\n", ":1: one of the columns x, y, z is missing");
-  expect_bad("x,y,z,w\n1,2,3,4\n", ":1: the header");
-  expect_bad("x,y,z,x\n1,2,3,4\n", ":1: column x is there twice");
-  expect_bad("x,y,z,i\n1,2,3,1\n", ":1: the columns i, j, k belong together");
-  expect_bad("x,y,z\n1,2,3\n1,2\n", ":3: 2 columns where the header has 3");
-  expect_bad("x,y,z\n1,2,three\n", ":2: column z is not a finite number");
-  expect_bad("x,y,z\n1,nan,3\n", ":2: column y is not a finite number");
-  expect_bad("x,y,z,i,j,k\n1,2,3,1,1,0\n", ":2: the direction i,j,k has length");
-  expect_bad("x,y,z,path\n1,2,3,1.5\n", ":2: path is not a whole number");
+  expect_bad("", ": the file is empty");
+  expect_bad("x,y,z\n# none\n", ": the list of points is empty");
+  expect_bad("x,y\n1,2\n", ":1: column 'z' is missing");
+  expect_bad("x,y,z,w\n1,2,3,4\n", ":1: unknown column 'w'");
+  expect_bad("x,y,z,x\n1,2,3,4\n", ":1: column 'x' is named twice");
+  expect_bad("x,y,z,i\n1,2,3,1\n", ":1: column 'j' is missing");
+  expect_bad("x,y,z\n1,2,3\n1,2\n", ":3: 2 columns where the first line names 3");
+  expect_bad("x,y,z\n1,2,three\n", ":2: column z: 'three' is not a finite number");
+  expect_bad("x,y,z\n1,nan,3\n", ":2: column y: 'nan' is not a finite number");
+  expect_bad("x,y,z,i,j,k\n1,2,3,1,1,0\n", ":2: columns i,j,k: the direction has the length");
+  expect_bad("x,y,z,path\n1,2,3,1.5\n", ":2: column path: '1.5' is not a whole number");
   expect_bad(std::string("\x7F"
                          "ELF\0\1\2",
                          7),
-             ":1: the header");
-  expect_refusal({"--points", scratch / "none.csv", "--transport", "serial"}, 2, "none.csv: cannot be read");
+             ":1: a control character");
+  expect_bad("x,y,z,weight\n1,2,3,0\n", ":2: column weight: '0' is not a number above 0");
+  expect_refusal({"--points", scratch / "none.csv", "--transport", "serial"}, 2, "none.csv: ");
+}
+
+TEST(SimulatorCommand, ServesTheWeightedPointsThatLocalizeAccepts) {
+  Scratch scratch;
+  std::ofstream(scratch / "points.csv") << "x,y,z,path,weight\n1,2,3,4,0.25\n5,6,7,4,1\n";
+  SimulatedMachine machine({"--points", scratch / "points.csv", "--transport", "modbus-tcp", "--port", "0"});
+  const RawModbus reader = RawModbus::tcp(machine.port());
+  reader.command(1);
+  ASSERT_TRUE(eventually([&] { return reader.newest() == 2; }, 2s));
+  EXPECT_EQ(reader.record(1).point.position, (std::array<double, 3>{1, 2, 3}));
+  EXPECT_EQ(reader.record(2).point.position, (std::array<double, 3>{5, 6, 7}));
+  EXPECT_EQ(reader.record(2).point.path, 4);
 }
 
 TEST(SimulatorCommand, AcceptsColumnsInAnyOrderCommentsAndForeignLineEnds) {

@@ -8,7 +8,8 @@
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/cpu_clock.hpp"
 #include "tools/batch/owned_localizer.hpp"
-#include "tools/files/exit_codes.hpp"
+#include "tools/batch/result_record.hpp"
+#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
@@ -80,121 +81,62 @@ std::uint32_t different_feet(const std::vector<Verdict>& a, const std::vector<Ve
 }
 
 /// Proves the first feet of a fit that only tracked them, by searches. Where one was not the nearest the fit may have
-/// gone astray, to another local optimum or to none, and is made anew from the searched feet.
+/// gone astray, to another local optimum or to none, and is made again from the searched feet.
 void prove_starts(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                  const std::string& name, StagedPoints& fit, FitResult& result) {
+                  const std::string& name, StagedPoints& fit, BatchFit& batch) {
   const double began = thread_cpu_s();
   StagedPoints searched = staged(design, plan, points, FootStarts::searched, name);
-  result.wrong_starts = different_feet(fit.verdicts, searched.verdicts, Surface(design).half_diagonal());
-  if (result.wrong_starts > 0 || fit.localizer->fit().status == FitStatus::tracking) {
+  batch.wrong_starts = different_feet(fit.verdicts, searched.verdicts, Surface(design).half_diagonal());
+  if (batch.wrong_starts > 0 || fit.localizer->fit().status == FitStatus::tracking) {
     refine_all(*searched.localizer, points.size());
-    result.proof.searches = searched.localizer->fit().searches;
+    batch.proof.searches = searched.localizer->fit().searches;
     fit = std::move(searched);
   } else {
-    result.proof.searches = searched.localizer->fit().searches;
+    batch.proof.searches = searched.localizer->fit().searches;
     fit.verdicts = std::move(searched.verdicts);
   }
-  result.proof.cpu_s = thread_cpu_s() - began;
-}
-
-class Summing {
- public:
-  explicit Summing(BeforeAfter& sums) : sums_(sums) {}
-  ~Summing() {
-    if (sums_.count == 0) return;
-    sums_.rms_before = std::sqrt(square_before_ / sums_.count);
-    sums_.rms_after = std::sqrt(square_after_ / sums_.count);
-  }
-  Summing(const Summing&) = delete;
-  Summing& operator=(const Summing&) = delete;
-  void add(double before, double after) {
-    ++sums_.count;
-    square_before_ += before * before;
-    square_after_ += after * after;
-    sums_.max_before = std::max(sums_.max_before, std::abs(before));
-    sums_.max_after = std::max(sums_.max_after, std::abs(after));
-  }
-
- private:
-  BeforeAfter& sums_;
-  double square_before_ = 0, square_after_ = 0;
-};
-
-void sum_up(FitResult& result, const std::vector<double>& before) {
-  Summing all(result.all), leading_edge(result.leading_edge), rest(result.rest);
-  for (std::size_t i = 0; i < result.verdicts.size(); ++i) {
-    const Verdict& after = result.verdicts[i];
-    if (after.state == PointState::rejected) continue;
-    all.add(before[i], after.foot.distance);
-    (after.region == Region::leading_edge ? leading_edge : rest).add(before[i], after.foot.distance);
-  }
-}
-
-std::string status_of(const FitReport& report) {
-  switch (report.status) {
-    case FitStatus::converged:
-      return "converged";
-    case FitStatus::underdetermined:
-      return "underdetermined";
-    case FitStatus::infeasible:
-      return "infeasible";
-    case FitStatus::tracking:
-      break;
-  }
-  return "not_converged";
+  batch.proof.cpu_s = thread_cpu_s() - began;
 }
 
 }  // namespace
 
-FitResult fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                     const std::string& name) {
-  FitResult result;
+BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                    const std::string& name) {
+  BatchFit batch;
   const double began = thread_cpu_s();
   StagedPoints fit = staged(design, plan, points, plan.starts, name);
   refine_all(*fit.localizer, points.size());
-  result.fit = {thread_cpu_s() - began, fit.searches + fit.localizer->fit().searches};
+  batch.fit = {thread_cpu_s() - began, fit.searches + fit.localizer->fit().searches};
   const bool tracked = plan.starts == FootStarts::neighbour || plan.starts == FootStarts::curves;
-  if (tracked) prove_starts(design, plan, points, name, fit, result);
-  result.report = fit.localizer->fit();
-  result.status = status_of(result.report);
-  result.verdicts = verdicts_of(*fit.localizer, points);
+  if (tracked) prove_starts(design, plan, points, name, fit, batch);
   const bool as_measured = is_identity(plan.localizer.start);
-  sum_up(result, as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points));
-  result.aberrant = aberrant_points(result.report, plan.localizer, result.verdicts, points);
-  if (result.all.count < 6) {
+  batch.result = result_record(
+      {.design = design,
+       .plan = plan,
+       .points = points,
+       .report = fit.localizer->fit(),
+       .verdicts = verdicts_of(*fit.localizer, points),
+       .before = as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points)});
+  batch.result.name = name;
+  if (const std::uint32_t count = batch.result.all.count; count < 6) {
     throw ToolError(
         fmt::format("{}: {} points count in the fit, at least 6 are needed ({} of {} are outside the window or at an "
                     "edge); probe more points",
-                    name, result.all.count, points.size() - result.all.count, points.size()));
+                    name, count, points.size() - count, points.size()));
   }
+  return batch;
+}
+
+Result result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                 const FitReport& report, const std::vector<Verdict>& verdicts, const std::string& name) {
+  Result result = result_record({.design = design,
+                                 .plan = plan,
+                                 .points = points,
+                                 .report = report,
+                                 .verdicts = verdicts,
+                                 .before = distances_as_measured(design, plan.localizer, points)});
+  result.name = name;
   return result;
-}
-
-FitResult result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                    const FitReport& report, std::vector<Verdict> verdicts) {
-  FitResult result;
-  result.report = report;
-  result.status = status_of(report);
-  result.verdicts = std::move(verdicts);
-  sum_up(result, distances_as_measured(design, plan.localizer, points));
-  result.aberrant = aberrant_points(report, plan.localizer, result.verdicts, points);
-  return result;
-}
-
-bool one_tolerance(const ToleranceMap& tolerance) {
-  return tolerance.box_count == 0 || !std::isfinite(tolerance.leading_edge_mm);
-}
-
-double least_widening(const FitReport& report, const ToleranceMap& tolerance) {
-  const bool leading_edge = std::isfinite(tolerance.leading_edge_mm);
-  return report.tolerance_factor_mm / (leading_edge ? tolerance.leading_edge_mm : tolerance.rest_mm);
-}
-
-int exit_code_of(const FitResult& result) {
-  if (result.report.status == FitStatus::infeasible) return kOutOfTolerance;
-  const bool out = std::any_of(result.verdicts.begin(), result.verdicts.end(),
-                               [](const Verdict& v) { return v.state == PointState::out; });
-  return out ? kOutOfTolerance : 0;
 }
 
 }  // namespace bladefit

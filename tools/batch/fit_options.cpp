@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "core/localizer/check_config.hpp"
+#include "drivers/text/units.hpp"
 #include "tools/batch/start_pairs.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 

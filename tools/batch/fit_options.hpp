@@ -15,8 +15,6 @@ class App;
 
 namespace bladefit {
 
-inline constexpr double kMmPerInch = 25.4;
-
 /// Adds a flag for each row of fit_options(), which `localize` and `run` share; what is given on the command line goes
 /// to `flags`. A value that cannot be used throws ToolError while the command line is read.
 void add_fit_options(CLI::App& command, FitSettings& flags);

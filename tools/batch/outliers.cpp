@@ -29,9 +29,9 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-AberrantPoints aberrant_points(const FitReport& report, const LocalizerConfig& config,
-                               const std::vector<Verdict>& verdicts, const std::vector<ProbePoint>& points) {
-  AberrantPoints out;
+Outliers find_outliers(const FitReport& report, const LocalizerConfig& config, const std::vector<Verdict>& verdicts,
+                       const std::vector<ProbePoint>& points) {
+  Outliers out;
   const double sigma = std::max(config.noise_floor_mm, report.sigma_mm);
   if (config.mode != FitMode::least_squares || report.determined < 6 || !(report.sigma_mm > 0.0)) return out;
   std::vector<double> sizes;
@@ -40,18 +40,18 @@ AberrantPoints aberrant_points(const FitReport& report, const LocalizerConfig& c
     sizes.push_back(std::sqrt(points[i].weight) * std::abs(verdicts[i].foot.distance));
   }
   if (sizes.empty()) return out;
-  out.scale_mm = kMedianToScale * median(sizes);
+  out.scale = kMedianToScale * median(sizes);
   out.limit = normal_quantile(kByChance / static_cast<double>(sizes.size()));
-  if (!(out.scale_mm > 0.0)) return out;
+  if (!(out.scale > 0.0)) return out;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const Verdict& v = verdicts[i];
     if (v.state == PointState::rejected) continue;
     const double spread = v.uncertainty_mm / sigma, leverage = points[i].weight * spread * spread;
     if (leverage > kMostLeverage) continue;
-    const double size = std::sqrt(points[i].weight) * v.foot.distance / (out.scale_mm * std::sqrt(1.0 - leverage));
+    const double size = std::sqrt(points[i].weight) * v.foot.distance / (out.scale * std::sqrt(1.0 - leverage));
     if (std::abs(size) > out.limit) out.points.push_back({v.sequence, v.foot.distance, size});
   }
-  std::stable_sort(out.points.begin(), out.points.end(), [](const AberrantPoint& a, const AberrantPoint& b) {
+  std::stable_sort(out.points.begin(), out.points.end(), [](const Outlier& a, const Outlier& b) {
     return std::abs(a.studentized) > std::abs(b.studentized);
   });
   return out;

@@ -14,6 +14,8 @@
 #include "tools/commands/design_notes.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/read_text.hpp"
+#include "tools/results/json_writer.hpp"
+#include "tools/results/operator_summary.hpp"
 
 namespace bladefit {
 namespace {
@@ -99,19 +101,14 @@ int localize(const LocalizeFlags& flags) {
   std::FILE* words = json_on_stdout ? stderr : stdout;
   tell_notes(loaded, words);
   if (!plan.note.empty()) fmt::print(words, "{}", plan.note);
-  const FitResult result = fit_points(design, plan, points, flags.points);
+  const BatchFit batch = fit_points(design, plan, points, flags.points);
+  const Result& result = batch.result;
   if (!flags.starts.empty()) {
-    fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", result.wrong_starts, points.size(),
-               result.wrong_starts > 0 ? "; fitted anew from searched ones" : "");
+    fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", batch.wrong_starts, points.size(),
+               batch.wrong_starts > 0 ? "; fitted again from searched ones" : "");
   }
-  const std::string json = result_json(result, plan);
-  if (json_on_stdout) {
-    std::fwrite(json.data(), 1, json.size(), stdout);
-    if (std::fflush(stdout) != 0) throw ToolError("standard output: cannot write the result", ToolError::Kind::device);
-  } else if (!flags.json.empty()) {
-    OutputFile(flags.json, json).commit();
-  }
-  fmt::print(words, "{}", operator_summary(result, plan, design));
+  if (!flags.json.empty()) write_output(flags.json, result_json(result), "result");
+  fmt::print(words, "{}", operator_summary(result));
   if (!flags.json.empty() && !json_on_stdout) fmt::print(words, "Written: {}\n", flags.json);
   return exit_code_of(result);
 }

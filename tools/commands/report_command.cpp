@@ -6,11 +6,11 @@
 #include <memory>
 #include <string>
 
+#include "firmware_bridge/host/journal/session_file_names.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/tool_error.hpp"
-#include "tools/report/csv_report.hpp"
-#include "tools/report/html_report.hpp"
-#include "tools/results/session_report.hpp"
+#include "tools/report/formats.hpp"
+#include "tools/results/session_files.hpp"
 
 namespace bladefit {
 namespace {
@@ -19,27 +19,14 @@ struct ReportOptions {
   std::string session, format, output;
 };
 
-constexpr const char* kReportHelp = R"(
-Formats:
-  html  one page to look at, print and send: summary, regions, pose, points to cut or weld, map, histogram
-  csv   one line a point, units in the names of the columns
-  json  the result as `bladefit run` wrote it, checked
-
+std::string report_help() {
+  std::string text = "\nFormats:\n";
+  for (const ReportFormat& format : kFormats) text += fmt::format("  {:<4}  {}\n", format.name, format.help);
+  return text + R"(
 Example:
   bladefit report session --format html -o blade.html
 
 Exit codes: 0 done, 2 wrong use or a session that cannot be reported, 3 the report cannot be written.)";
-
-std::string content_of(const std::string& format, const SessionReport& report) {
-  if (format == "csv") return csv_report(report);
-  if (format == "html") return html_report(report);
-  return report.result_text;
-}
-
-void check_format(const std::string& format) {
-  if (format == "html" || format == "csv" || format == "json") return;
-  throw ToolError(
-      fmt::format("--format {}: is not in this version; the formats are html, csv and json", format.substr(0, 20)));
 }
 
 /// The report must not take the place of what it is made from.
@@ -53,10 +40,9 @@ void check_output(const ReportOptions& options) {
 }
 
 void report(const ReportOptions& options) {
-  check_format(options.format);
+  const ReportFormat& format = format_of(options.format);
   check_output(options);
-  const SessionReport session = read_session(options.session);
-  OutputFile(options.output, content_of(options.format, session)).commit();
+  OutputFile(options.output, format.text_of(read_session(options.session))).commit();
   fmt::print("Written: {}\n", options.output);
 }
 
@@ -65,11 +51,11 @@ void report(const ReportOptions& options) {
 void add_report_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand("report", "write what a session found as a page, a table or a data file");
-  command->footer(kReportHelp);
+  command->footer(report_help());
   command->add_option("session", options->session, "folder that `bladefit run --session` wrote")
       ->required()
       ->type_name("SESSION_DIR");
-  command->add_option("--format", options->format, "what to write")->required()->type_name("html|csv|json");
+  command->add_option("--format", options->format, "what to write")->required()->type_name(format_names("|", "|"));
   command->add_option("-o,--output", options->output, "file to write")->required()->type_name("OUT");
   command->callback([options, &exit_code] {
     report(*options);

@@ -14,6 +14,8 @@
 #include "tools/files/output_file.hpp"
 #include "tools/reproduce/progress_line.hpp"
 #include "tools/reproduce/start_costs.hpp"
+#include "tools/reproduce/table_json.hpp"
+#include "tools/reproduce/table_text.hpp"
 #include "tools/reproduce/thesis_tables.hpp"
 #include "tools/reproduce/validity_checks.hpp"
 
@@ -165,16 +167,8 @@ void run_reproduce(const ReproduceFlags& flags) {
   std::FILE* words = json_on_stdout ? stderr : stdout;
   print_tables(tables, words);
   if (flags.json.empty()) return;
-  const std::string json = tables_json(tables);
-  if (!json_on_stdout) {
-    OutputFile(flags.json, json).commit();
-    fmt::print("Written: {}\n", flags.json);
-    return;
-  }
-  std::fwrite(json.data(), 1, json.size(), stdout);
-  if (std::fflush(stdout) != 0) {
-    throw ToolError("standard output: cannot write the figures", ToolError::Kind::device);
-  }
+  write_output(flags.json, tables_json(tables), "figures");
+  if (!json_on_stdout) fmt::print("Written: {}\n", flags.json);
 }
 
 }  // namespace

@@ -17,7 +17,9 @@
 #include "tools/files/exit_codes.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/panel/panel_display.hpp"
-#include "tools/results/run_files.hpp"
+#include "tools/results/json_writer.hpp"
+#include "tools/results/operator_summary.hpp"
+#include "tools/results/session_files.hpp"
 
 namespace bladefit {
 namespace {
@@ -88,18 +90,6 @@ std::string ending(const SessionResult& session) {
   return fmt::format("by a fault; what follows is of the {} points stored before it", session.points.size());
 }
 
-void write_copy(const std::string& path, const std::string& json) {
-  if (path.empty()) return;
-  if (path != "-") {
-    OutputFile(path, json).commit();
-    return;
-  }
-  std::fwrite(json.data(), 1, json.size(), stdout);
-  if (std::fflush(stdout) != 0) {
-    throw ToolError("standard output: cannot write the result", ToolError::Kind::device);
-  }
-}
-
 /// Writes what the session came to, also after a fault: then of the points stored before it.
 int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words) {
   if (session.error) report(session.error);
@@ -118,11 +108,11 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
                     "check that the machine's program is running",
                     plan.host.session_directory));
   }
-  const FitResult result = result_of(plan.image, plan.fit, session.points, session.report, session.verdicts);
-  const std::string json = result_json(result, plan.fit);
-  const std::vector<std::string> files = write_session_files(plan.host.session_directory, session, json);
-  write_copy(plan.json, json);
-  fmt::print(words, "Session ended: {}\n{}", ending(session), operator_summary(result, plan.fit, plan.image));
+  const Result result =
+      result_of(plan.image, plan.fit, session.points, session.report, session.verdicts, plan.host.session_directory);
+  const std::vector<std::string> files = write_session_files(plan.host.session_directory, result);
+  if (!plan.json.empty()) write_output(plan.json, result_json(result), "result");
+  fmt::print(words, "Session ended: {}\n{}", ending(session), operator_summary(result));
   for (const std::string& file : files) fmt::print(words, "Written: {}\n", file);
   if (!plan.json.empty() && plan.json != "-") fmt::print(words, "Written: {}\n", plan.json);
   return session.error ? exit_code_of(session.error) : exit_code_of(result);

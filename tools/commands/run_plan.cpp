@@ -12,9 +12,9 @@
 #include "config/device_settings.hpp"
 #include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
+#include "firmware_bridge/host/journal/session_file_names.hpp"
 #include "firmware_bridge/host/panel/panel_address.hpp"
 #include "tools/files/output_file.hpp"
-#include "tools/results/session_report.hpp"
 
 namespace bladefit {
 namespace {

@@ -52,8 +52,8 @@ A check of a fit from end to end, which must find the pose -0.5,0.3,0.2,0.01,-0.
 
 Exit codes: 0 done, 2 wrong use or bad design, 3 a file cannot be read or written.)";
 
-[[noreturn]] void fail(const char* option, const std::string& text, const std::string& mend) {
-  throw ToolError(fmt::format("{} {}: {}", option, text, mend));
+[[noreturn]] void fail(const char* option, const std::string& text, const std::string& fix) {
+  throw ToolError(fmt::format("{} {}: {}", option, text, fix));
 }
 
 void parse_grid(const SampleFlags& flags, SamplePlan& plan) {

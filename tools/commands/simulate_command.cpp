@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/geometry/surface/design_image.hpp"
+#include "drivers/text/units.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/read_design.hpp"
 #include "tools/files/output_file.hpp"
@@ -15,8 +16,6 @@
 
 namespace bladefit {
 namespace {
-
-constexpr double kMmPerInch = 25.4;
 
 /// The flags as they are given, before the units are known.
 struct SimulateFlags {
@@ -28,7 +27,9 @@ struct SimulateFlags {
 
 void add_source_flags(CLI::App& command, SimulateFlags& flags) {
   SimulatorSettings& settings = flags.settings;
-  command.add_option("--points", settings.points, "CSV of the points that the machine touches: x,y,z[,i,j,k][,path]")
+  command
+      .add_option("--points", settings.points,
+                  "CSV of the points that the machine touches: x,y,z[,i,j,k][,path][,weight]")
       ->required();
   command.add_option("--design", flags.design, "design file; read for the units of the points only");
   command.add_option("--units", flags.units, "units of the points: mm or in (default: those of the design, else mm)")

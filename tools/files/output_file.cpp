@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <system_error>
 
@@ -71,6 +72,17 @@ OutputFile::~OutputFile() {
 void OutputFile::commit() {
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
   temporary_.clear();
+}
+
+void write_output(const std::string& path, std::string_view content, std::string_view what) {
+  if (path != "-") {
+    OutputFile(path, content).commit();
+    return;
+  }
+  std::fwrite(content.data(), 1, content.size(), stdout);
+  if (std::fflush(stdout) != 0) {
+    throw ToolError(fmt::format("standard output: cannot write the {}", what), ToolError::Kind::device);
+  }
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {

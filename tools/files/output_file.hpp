@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace bladefit {
@@ -21,6 +22,10 @@ class OutputFile {
  private:
   std::filesystem::path path_, temporary_;
 };
+
+/// Writes `content` to the file `path`, as a whole or not at all, or to standard output where that is "-"; `what` says
+/// in messages what it is. Throws ToolError as OutputFile does.
+void write_output(const std::string& path, std::string_view content, std::string_view what);
 
 /// True where both name the same place, whether something stands there or not. Empty names are no place.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);

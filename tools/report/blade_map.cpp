@@ -16,9 +16,9 @@ constexpr double kWidth = 1080, kLeft = 46, kTop = 24, kBottom = 36, kGap = 60, 
 constexpr double kOneHeight = 430, kSmallHeight = 320, kLegendHeight = 48;
 constexpr std::size_t kMostColumns = 3;
 
-std::set<std::uint32_t> patches_of(const SessionReport& report) {
+std::set<std::uint32_t> patches_of(const Result& result) {
   std::set<std::uint32_t> patches;
-  for (const ReportPoint& point : report.points) patches.insert(point.patch);
+  for (const ResultPoint& point : result.points) patches.insert(point.patch);
   return patches;
 }
 
@@ -38,11 +38,11 @@ std::vector<MapPanel> place_panels(const std::set<std::uint32_t>& patches) {
 }
 
 /// The leading-edge boxes that hold a point out of tolerance and are a part of their patch only.
-std::vector<MapPanel> place_magnified(const SessionReport& report) {
+std::vector<MapPanel> place_magnified(const Result& result) {
   std::vector<MapPanel> panels;
-  for (const ParameterBox& box : report.fit.boxes) {
+  for (const ParameterBox& box : result.boxes) {
     const double u_range = box.u_max - box.u_min, v_range = box.v_max - box.v_min;
-    const bool any_out = std::any_of(report.points.begin(), report.points.end(), [&box](const ReportPoint& point) {
+    const bool any_out = std::any_of(result.points.begin(), result.points.end(), [&box](const ResultPoint& point) {
       return point.state == PointState::out && lies_in(point, box);
     });
     if (!any_out || u_range <= 0 || v_range <= 0 || u_range * v_range >= 1) continue;
@@ -60,10 +60,10 @@ std::string opening(double height, const char* label) {
   return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n", kWidth, height, label);
 }
 
-std::string drawn(const std::vector<MapPanel>& panels, const SessionReport& report, const ColourScale& scale) {
+std::string drawn(const std::vector<MapPanel>& panels, const Result& result, const ColourScale& scale) {
   std::string svg;
-  for (const MapPanel& panel : panels) svg += panel_frame(panel, report.fit.boxes);
-  for (const MapPanel& panel : panels) svg += panel_points(panel, report, scale);
+  for (const MapPanel& panel : panels) svg += panel_frame(panel, result.boxes);
+  for (const MapPanel& panel : panels) svg += panel_points(panel, result, scale);
   return svg;
 }
 
@@ -92,13 +92,13 @@ std::string colour_bar(double x, double y, const ColourScale& scale, const std::
   return svg + caption(x + kBarWidth, y - 6, "too much material", "end") + "\n";
 }
 
-bool has_state(const SessionReport& report, PointState state) {
-  return std::any_of(report.points.begin(), report.points.end(),
-                     [state](const ReportPoint& point) { return point.state == state; });
+bool has_state(const Result& result, PointState state) {
+  return std::any_of(result.points.begin(), result.points.end(),
+                     [state](const ResultPoint& point) { return point.state == state; });
 }
 
 /// The marks that occur, each with its meaning.
-std::string mark_legend(double x, double y, const SessionReport& report, const ColourScale& scale) {
+std::string mark_legend(double x, double y, const Result& result, const ColourScale& scale) {
   struct Entry {
     PointState state;
     double distance;
@@ -111,11 +111,11 @@ std::string mark_legend(double x, double y, const SessionReport& report, const C
        {Entry{PointState::out, full, "out: cut"}, Entry{PointState::out, -full, "out: weld"},
         Entry{PointState::in, 0.4 * full, "in tolerance or not judged"},
         Entry{PointState::pending, 0, "not decided yet"}, Entry{PointState::rejected, 0, "does not count"}}) {
-    if (!has_state(report, entry.state)) continue;
+    if (!has_state(result, entry.state)) continue;
     const std::size_t column = place % 2, row = place / 2;
     const double left = x + 110.0 * static_cast<double>(column), top = y + 20.0 * static_cast<double>(row);
-    const ReportPoint sample = {.distance = entry.distance, .state = entry.state};
-    svg += point_mark(sample, left, top, scale) + caption(left + 12, top + 4, entry.meaning) + "\n";
+    svg +=
+        point_mark(entry.state, entry.distance, left, top, scale) + caption(left + 12, top + 4, entry.meaning) + "\n";
     ++place;
   }
   return svg;
@@ -123,14 +123,14 @@ std::string mark_legend(double x, double y, const SessionReport& report, const C
 
 }  // namespace
 
-std::string blade_map(const SessionReport& report, const ColourScale& scale) {
-  const std::vector<MapPanel> panels = place_panels(patches_of(report));
+std::string blade_map(const Result& result, const ColourScale& scale) {
+  const std::vector<MapPanel> panels = place_panels(patches_of(result));
   const double bottom = bottom_of(panels);
   std::string svg = opening(bottom + kLegendHeight + 20, "Map of the unrolled blade: distance of every point") +
-                    drawn(panels, report, scale);
-  svg += colour_bar(kLeft, bottom + 24, scale, escaped(report.fit.units));
-  svg += mark_legend(kLeft + 450, bottom + 22, report, scale);
-  if (!report.fit.boxes.empty()) {
+                    drawn(panels, result, scale);
+  svg += colour_bar(kLeft, bottom + 24, scale, escaped(result.units));
+  svg += mark_legend(kLeft + 450, bottom + 22, result, scale);
+  if (!result.boxes.empty()) {
     svg += fmt::format("<rect class=\"edge\" x=\"{}\" y=\"{:.1f}\" width=\"22\" height=\"14\"/>", kLeft + 850,
                        bottom + 15);
     svg += caption(kLeft + 880, bottom + 26, "leading-edge region");
@@ -138,10 +138,10 @@ std::string blade_map(const SessionReport& report, const ColourScale& scale) {
   return svg + "</svg>\n";
 }
 
-std::string leading_edge_map(const SessionReport& report, const ColourScale& scale) {
-  const std::vector<MapPanel> panels = place_magnified(report);
+std::string leading_edge_map(const Result& result, const ColourScale& scale) {
+  const std::vector<MapPanel> panels = place_magnified(result);
   if (panels.empty()) return {};
-  return opening(bottom_of(panels), "Leading edge, magnified") + drawn(panels, report, scale) + "</svg>\n";
+  return opening(bottom_of(panels), "Leading edge, magnified") + drawn(panels, result, scale) + "</svg>\n";
 }
 
 }  // namespace bladefit

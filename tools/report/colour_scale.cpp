@@ -31,12 +31,12 @@ std::string ColourScale::colour(double distance) const {
 
 bool ColourScale::is_dark(double distance) const { return std::abs(distance) > kDark * limit; }
 
-ColourScale colour_scale_of(const SessionReport& report) {
+ColourScale colour_scale_of(const Result& result) {
   double largest = 0.0, widest = 0.0;
-  for (const ReportPoint& point : report.points) {
+  for (const ResultPoint& point : result.points) {
     if (point.state == PointState::rejected) continue;
-    largest = std::max(largest, std::abs(point.distance));
-    widest = std::max(widest, point.tolerance);
+    largest = std::max(largest, std::abs(result.in_units(point.distance)));
+    widest = std::max(widest, result.in_units(point.tolerance));
   }
   return {widest <= largest ? std::max(widest, kSmallest) : round_step_above(std::max(largest, kSmallest))};
 }

@@ -13,16 +13,18 @@ std::string number_or_empty(double value) { return std::isfinite(value) ? fmt::f
 
 }  // namespace
 
-std::string csv_report(const SessionReport& report) {
-  const std::string& units = report.fit.units;
+std::string csv_report(const Result& result) {
+  const std::string& units = result.units;
   std::string text = fmt::format(
       "sequence,x_{0},y_{0},z_{0},patch,u,v,kind,region,distance_{0},tolerance_{0},uncertainty_{0},state,action\n",
       units);
-  for (const ReportPoint& point : report.points) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.position[0],
-                        point.position[1], point.position[2], point.patch, point.u, point.v, word_of(point.kind),
-                        word_of(point.region), point.distance, number_or_empty(point.tolerance),
-                        number_or_empty(point.uncertainty), word_of(point.state), word_of(point.action));
+  const auto length = [&result](double mm) { return result.in_units(mm); };
+  for (const ResultPoint& point : result.points) {
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, length(point.position[0]),
+                        length(point.position[1]), length(point.position[2]), point.patch, point.u, point.v,
+                        word_of(point.kind), word_of(point.region), length(point.distance),
+                        number_or_empty(length(point.tolerance)), number_or_empty(length(point.uncertainty)),
+                        word_of(point.state), word_of(point.action));
   }
   return text;
 }

@@ -1,8 +1,9 @@
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
-#include "tools/results/session_report.hpp"
+#include "tools/results/result.hpp"
 
 namespace bladefit {
 
@@ -11,31 +12,34 @@ struct RegionFindings {
   std::uint32_t points = 0;  ///< of the region, rejected ones left out
   std::uint32_t cut = 0, weld = 0;
   std::uint32_t pending = 0;
-  const ReportPoint* worst_out = nullptr;  ///< the out-of-tolerance point of the largest distance; null = none is out
+  const ResultPoint* worst_out = nullptr;  ///< the out-of-tolerance point of the largest distance; null = none is out
 
   [[nodiscard]] std::uint32_t out() const { return cut + weld; }
 };
 
-[[nodiscard]] RegionFindings findings_of(const SessionReport& report, Region region);
+[[nodiscard]] RegionFindings findings_of(const Result& result, Region region);
 
 /// Points that do not count: foot on an edge of the design or outside the window.
-[[nodiscard]] std::uint32_t rejected_points(const SessionReport& report);
+[[nodiscard]] std::uint32_t rejected_points(const Result& result);
 
 /// The out-of-tolerance points: those of the leading edge first, in each region the largest distance first.
-[[nodiscard]] std::vector<const ReportPoint*> out_of_tolerance(const SessionReport& report);
+[[nodiscard]] std::vector<const ResultPoint*> out_of_tolerance(const Result& result);
 
-/// Radius of a measured point about the x axis of the design, moved there by the pose [units of the report].
-[[nodiscard]] double radius_of(const SessionReport& report, const ReportPoint& point);
+/// Radius of a measured point about the x axis of the design, moved there by the pose [mm].
+[[nodiscard]] double radius_of(const Result& result, const ResultPoint& point);
+
+/// Standard uncertainties of (w, dt) [rad, mm].
+[[nodiscard]] std::array<double, 6> standard_uncertainty_of(const Mat6& covariance);
 
 /// What the session says of the blade as a whole.
 enum class Outcome { in_tolerance, out_of_tolerance, undecided, not_judged };
 
-[[nodiscard]] Outcome outcome_of(const SessionReport& report);
+[[nodiscard]] Outcome outcome_of(const Result& result);
 
 /// The outcome in some words: the head of the report.
-[[nodiscard]] std::string headline(const SessionReport& report);
+[[nodiscard]] std::string headline(const Result& result);
 
 /// What the operator wants to know, one sentence an element, plain text.
-[[nodiscard]] std::vector<std::string> summary_sentences(const SessionReport& report);
+[[nodiscard]] std::vector<std::string> summary_sentences(const Result& result);
 
 }  // namespace bladefit

@@ -32,23 +32,24 @@ struct Bins {
   }
 };
 
-std::vector<double> distances_of(const SessionReport& report, const Region* region) {
+/// In the units of the result, as are all lengths here.
+std::vector<double> distances_of(const Result& result, const Region* region) {
   std::vector<double> distances;
-  for (const ReportPoint& point : report.points) {
+  for (const ResultPoint& point : result.points) {
     if (point.state != PointState::rejected && (region == nullptr || point.region == *region))
-      distances.push_back(point.distance);
+      distances.push_back(result.in_units(point.distance));
   }
   return distances;
 }
 
 /// A stray touch far from the blade must not squeeze all others into one bar.
-Bins choose_bins(const SessionReport& report) {
-  std::vector<double> sizes = distances_of(report, nullptr);
+Bins choose_bins(const Result& result) {
+  std::vector<double> sizes = distances_of(result, nullptr);
   for (double& size : sizes) size = std::abs(size);
   std::sort(sizes.begin(), sizes.end());
   double wide = sizes[sizes.size() * 9 / 10];
-  for (const double tolerance : {report.fit.leading_edge.tolerance, report.fit.rest.tolerance}) {
-    if (std::isfinite(tolerance)) wide = std::max(wide, tolerance);
+  for (const double tolerance : {result.leading_edge.tolerance, result.rest.tolerance}) {
+    if (std::isfinite(tolerance)) wide = std::max(wide, result.in_units(tolerance));
   }
   const double range = std::max({std::min(sizes.back(), kFarAway * wide), 1e-9});
   const double step = round_step_above(2 * range / kWantedBins);
@@ -103,23 +104,24 @@ std::string bars(const Bins& bins, const std::vector<double>& distances, const C
 
 }  // namespace
 
-std::string distance_histogram(const SessionReport& report, const ColourScale& scale) {
-  if (distances_of(report, nullptr).empty()) return {};
-  const Bins bins = choose_bins(report);
+std::string distance_histogram(const Result& result, const ColourScale& scale) {
+  if (distances_of(result, nullptr).empty()) return {};
+  const Bins bins = choose_bins(result);
   std::string svg;
   double bottom = 0;
   for (const Region region : {Region::leading_edge, Region::rest}) {
-    const std::vector<double> distances = distances_of(report, &region);
+    const std::vector<double> distances = distances_of(result, &region);
     if (distances.empty()) continue;
     const bool leading_edge = region == Region::leading_edge;
     const double top = bottom + kTop;
     bottom = top + kHeight;
     svg += bars(bins, distances, scale, bottom);
-    svg += tolerance_lines(bins, (leading_edge ? report.fit.leading_edge : report.fit.rest).tolerance, top);
+    const double tolerance = (leading_edge ? result.leading_edge : result.rest).tolerance;
+    svg += tolerance_lines(bins, result.in_units(tolerance), top);
     const auto beyond = std::count_if(distances.begin(), distances.end(),
                                       [&](double distance) { return std::abs(distance) > bins.limit(); });
     std::string title = leading_edge ? "leading edge" : "rest of the blade";
-    title = fmt::format("{}: {} by distance, {}", title, counted(distances.size(), "point"), escaped(report.fit.units));
+    title = fmt::format("{}: {} by distance, {}", title, counted(distances.size(), "point"), escaped(result.units));
     if (beyond > 0) title += fmt::format(" ({} farther away, counted in the outermost bars)", beyond);
     svg += axis(bins, bottom, title);
     bottom += kBottom;

@@ -45,18 +45,25 @@ const char* style_of(Outcome outcome) {
   return outcome == Outcome::in_tolerance ? "good" : "open";
 }
 
-std::string head(const SessionReport& report) {
+std::string head(const Result& result) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>Blade inspection: {}</title>\n<style>{}</style>\n</head>\n",
-      escaped(report.name), kStyle);
+      escaped(result.name), kStyle);
 }
 
-std::string summary(const SessionReport& report) {
+/// Where the points come from, and for a session what they were judged by.
+std::string origin(const Result& result) {
+  if (!result.identity) return "Points " + escaped(result.name);
+  return fmt::format("Session {} &middot; design image {:08x} &middot; settings {:016x}", escaped(result.name),
+                     result.identity->design_crc, result.identity->config_digest);
+}
+
+std::string summary(const Result& result) {
   std::string html =
-      fmt::format("<p class=\"headline {}\">{}</p>\n<ul>\n", style_of(outcome_of(report)), escaped(headline(report)));
-  for (const std::string& sentence : summary_sentences(report)) html += fmt::format("<li>{}</li>\n", escaped(sentence));
+      fmt::format("<p class=\"headline {}\">{}</p>\n<ul>\n", style_of(outcome_of(result)), escaped(headline(result)));
+  for (const std::string& sentence : summary_sentences(result)) html += fmt::format("<li>{}</li>\n", escaped(sentence));
   return html + "</ul>\n";
 }
 
@@ -66,20 +73,17 @@ std::string section(const char* title, const std::string& content) {
 
 }  // namespace
 
-std::string html_report(const SessionReport& report) {
-  const ColourScale scale = colour_scale_of(report);
-  std::string html = head(report);
-  html += fmt::format(
-      "<body>\n<h1>Blade inspection report</h1>\n<p class=\"session\">Session {} &middot; design image {:08x} "
-      "&middot; settings {:016x}</p>\n",
-      escaped(report.name), report.identity.design_crc, report.identity.config_digest);
-  html += summary(report);
-  html += section("Map of the unrolled blade", blade_map(report, scale));
-  html += section("Leading edge, magnified", leading_edge_map(report, scale));
-  html += section("Points out of tolerance", out_table(report));
-  html += section("Regions", region_table(report));
-  html += section("Pose", pose_table(report));
-  html += section("Distances", distance_histogram(report, scale));
+std::string html_report(const Result& result) {
+  const ColourScale scale = colour_scale_of(result);
+  std::string html = head(result);
+  html += fmt::format("<body>\n<h1>Blade inspection report</h1>\n<p class=\"session\">{}</p>\n", origin(result));
+  html += summary(result);
+  html += section("Map of the unrolled blade", blade_map(result, scale));
+  html += section("Leading edge, magnified", leading_edge_map(result, scale));
+  html += section("Points out of tolerance", out_table(result));
+  html += section("Regions", region_table(result));
+  html += section("Pose", pose_table(result));
+  html += section("Distances", distance_histogram(result, scale));
   return html + "<p class=\"note\">Written by bladefit.</p>\n</body>\n</html>\n";
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 #include <string>
 
-#include "tools/results/session_report.hpp"
+#include "tools/results/result.hpp"
 
 namespace bladefit {
 
 /// One page of HTML that holds all it needs: summary in words, map of the blade, points to cut or weld, regions, pose,
 /// histogram. Nothing in it is fetched from elsewhere and nothing runs.
-[[nodiscard]] std::string html_report(const SessionReport& report);
+[[nodiscard]] std::string html_report(const Result& result);
 
 }  // namespace bladefit

@@ -35,19 +35,19 @@ std::string glyph(bool plus, double x, double y, bool on_dark) {
   return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>", path, colour);
 }
 
-std::string tooltip(const ReportPoint& point, const std::string& units) {
-  const LengthText text(units);
+std::string tooltip(const ResultPoint& point, const Result& result) {
+  const LengthText text(result);
   return fmt::format("<title>point {}: {}, {}; tolerance {}; u {:.4f}, v {:.4f}</title>", point.sequence,
                      text.with_sign_and_unit(point.distance), word_of(point.action), text.with_unit(point.tolerance),
                      point.u, point.v);
 }
 
-std::vector<const ReportPoint*> drawn_points(const MapPanel& panel, const SessionReport& report) {
-  std::vector<const ReportPoint*> points;
-  for (const ReportPoint& point : report.points) {
+std::vector<const ResultPoint*> drawn_points(const MapPanel& panel, const Result& result) {
+  std::vector<const ResultPoint*> points;
+  for (const ResultPoint& point : result.points) {
     if (lies_in(point, panel.part)) points.push_back(&point);
   }
-  std::stable_sort(points.begin(), points.end(), [](const ReportPoint* a, const ReportPoint* b) {
+  std::stable_sort(points.begin(), points.end(), [](const ResultPoint* a, const ResultPoint* b) {
     const bool a_out = a->state == PointState::out, b_out = b->state == PointState::out;
     if (a_out != b_out) return b_out;
     return std::abs(a->distance) < std::abs(b->distance);
@@ -56,17 +56,17 @@ std::vector<const ReportPoint*> drawn_points(const MapPanel& panel, const Sessio
 }
 
 /// Numbers of the worst points, each where it hides neither a mark nor another number.
-std::string labels(const MapPanel& panel, const SessionReport& report) {
-  std::vector<const ReportPoint*> out;
+std::string labels(const MapPanel& panel, const Result& result) {
+  std::vector<const ResultPoint*> out;
   std::vector<Rectangle> taken;
-  for (const ReportPoint* point : out_of_tolerance(report)) {
+  for (const ResultPoint* point : out_of_tolerance(result)) {
     if (!lies_in(*point, panel.part)) continue;
     out.push_back(point);
     taken.push_back(around(panel.x(point->u), panel.y(point->v), kOutRadius));
   }
   if (out.size() > kMostLabels) return {};
   std::string svg;
-  for (const ReportPoint* point : out) {
+  for (const ResultPoint* point : out) {
     const std::string number = fmt::format("{}", point->sequence);
     const double width = kLetterWidth * static_cast<double>(number.size()), gap = kOutRadius + 3.5;
     const double x = panel.x(point->u), y = panel.y(point->v);
@@ -101,7 +101,7 @@ std::string shaded_boxes(const MapPanel& panel, const std::vector<ParameterBox>&
 
 }  // namespace
 
-bool lies_in(const ReportPoint& point, const ParameterBox& box) {
+bool lies_in(const ResultPoint& point, const ParameterBox& box) {
   return point.patch == box.patch && box.u_min <= point.u && point.u <= box.u_max && box.v_min <= point.v &&
          point.v <= box.v_max;
 }
@@ -132,30 +132,30 @@ std::string panel_frame(const MapPanel& panel, const std::vector<ParameterBox>& 
   return svg;
 }
 
-std::string point_mark(const ReportPoint& point, double x, double y, const ColourScale& scale) {
-  if (point.state == PointState::rejected) {
+std::string point_mark(PointState state, double distance, double x, double y, const ColourScale& scale) {
+  if (state == PointState::rejected) {
     return fmt::format("<path class=\"rejected\" d=\"M{:.1f} {:.1f}l5 5m0 -5l-5 5\"/>", x - 2.5, y - 2.5);
   }
-  if (point.state == PointState::pending) {
+  if (state == PointState::pending) {
     return fmt::format("<circle class=\"pending\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, kPointRadius);
   }
-  if (point.state == PointState::in) {
+  if (state == PointState::in) {
     return fmt::format("<circle class=\"in\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>", x, y, kPointRadius,
-                       scale.colour(point.distance));
+                       scale.colour(distance));
   }
   return fmt::format("<circle class=\"out\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>", x, y, kOutRadius,
-                     scale.colour(point.distance)) +
-         glyph(point.distance > 0, x, y, scale.is_dark(point.distance));
+                     scale.colour(distance)) +
+         glyph(distance > 0, x, y, scale.is_dark(distance));
 }
 
-std::string panel_points(const MapPanel& panel, const SessionReport& report, const ColourScale& scale) {
+std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale) {
   std::string svg;
-  for (const ReportPoint* point : drawn_points(panel, report)) {
-    const std::string mark = point_mark(*point, panel.x(point->u), panel.y(point->v), scale);
-    svg += point->state == PointState::out ? fmt::format("<g>{}{}</g>\n", tooltip(*point, report.fit.units), mark)
-                                           : mark + "\n";
+  for (const ResultPoint* point : drawn_points(panel, result)) {
+    const std::string mark =
+        point_mark(point->state, result.in_units(point->distance), panel.x(point->u), panel.y(point->v), scale);
+    svg += point->state == PointState::out ? fmt::format("<g>{}{}</g>\n", tooltip(*point, result), mark) : mark + "\n";
   }
-  return svg + labels(panel, report);
+  return svg + labels(panel, result);
 }
 
 }  // namespace bladefit

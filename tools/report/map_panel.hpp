@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "tools/report/colour_scale.hpp"
-#include "tools/results/session_report.hpp"
+#include "tools/results/result.hpp"
 
 namespace bladefit {
 
@@ -18,15 +18,15 @@ struct MapPanel {
 };
 
 /// Whether the foot of the point lies in the box.
-[[nodiscard]] bool lies_in(const ReportPoint& point, const ParameterBox& box);
+[[nodiscard]] bool lies_in(const ResultPoint& point, const ParameterBox& box);
 
 /// Frame, grid, axes and the shaded leading-edge region.
 [[nodiscard]] std::string panel_frame(const MapPanel& panel, const std::vector<ParameterBox>& boxes);
 
 /// The points of the panel; those that are out lie on top.
-[[nodiscard]] std::string panel_points(const MapPanel& panel, const SessionReport& report, const ColourScale& scale);
+[[nodiscard]] std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale);
 
-/// The mark of one point with its centre at (x, y), as map and legend show it.
-[[nodiscard]] std::string point_mark(const ReportPoint& point, double x, double y, const ColourScale& scale);
+/// The mark of a point with its centre at (x, y), as map and legend show it; `distance` in the units of the scale.
+[[nodiscard]] std::string point_mark(PointState state, double distance, double x, double y, const ColourScale& scale);
 
 }  // namespace bladefit

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bladefit {
@@ -33,15 +34,23 @@ std::string escaped(std::string_view text) {
 }
 
 std::string LengthText::plain(double length) const {
-  return std::isfinite(length) ? fmt::format("{:.{}f}", length, decimals_) : "-";
+  return std::isfinite(length) ? fmt::format("{:.{}f}", result_.in_units(length), decimals_) : "-";
 }
 
-std::string LengthText::with_sign(double length) const { return fmt::format("{:+.{}f}", length, decimals_); }
+std::string LengthText::with_sign(double length) const {
+  return fmt::format("{:+.{}f}", result_.in_units(length), decimals_);
+}
 
-std::string LengthText::with_unit(double length) const { return fmt::format("{} {}", plain(length), units_); }
+std::string LengthText::with_unit(double length) const { return fmt::format("{} {}", plain(length), result_.units); }
 
 std::string LengthText::with_sign_and_unit(double length) const {
-  return fmt::format("{} {}", with_sign(length), units_);
+  return fmt::format("{} {}", with_sign(length), result_.units);
+}
+
+std::string readable(std::string_view word) {
+  std::string text(word);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
 }
 
 std::string counted(std::size_t count, std::string_view noun) {

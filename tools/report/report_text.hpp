@@ -2,15 +2,17 @@
 #include <string>
 #include <string_view>
 
+#include "tools/results/result.hpp"
+
 namespace bladefit {
 
 /// The text with & < > " ' written so that HTML and SVG show them and never take them for markup.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// Writes lengths of a report, all with the same number of decimals.
+/// Writes the lengths of a result, given in mm, in its units and all with the same number of decimals.
 class LengthText {
  public:
-  explicit LengthText(const std::string& units) : units_(units), decimals_(units == "in" ? 5 : 4) {}
+  explicit LengthText(const Result& result) : result_(result), decimals_(result.units == "in" ? 5 : 4) {}
 
   /// "0.1000"; "-" for infinity, where nothing is known or asked for.
   [[nodiscard]] std::string plain(double length) const;
@@ -21,12 +23,13 @@ class LengthText {
   /// "+0.3100 mm".
   [[nodiscard]] std::string with_sign_and_unit(double length) const;
 
-  [[nodiscard]] const std::string& units() const { return units_; }
-
  private:
-  std::string units_;
+  const Result& result_;
   int decimals_;
 };
+
+/// A word of the files as people write it: "leading edge".
+[[nodiscard]] std::string readable(std::string_view word);
 
 /// "1 point", "12 points".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);

@@ -42,10 +42,4 @@ struct ReportTable {
 /// Source of the rows that repeat the thesis.
 inline constexpr const char* kThesisSource = "thesis";
 
-/// The table as text, its notes below it, every line ended.
-[[nodiscard]] std::string table_text(const ReportTable& table);
-
-/// All tables as JSON: numbers in full, null where there is none. Ends with a newline.
-[[nodiscard]] std::string tables_json(const std::vector<ReportTable>& tables);
-
 }  // namespace bladefit

@@ -14,11 +14,11 @@ constexpr int kRepeats = 3;
 /// In the order of the table.
 constexpr std::array kWays = {FootStarts::searched, FootStarts::curves, FootStarts::neighbour, FootStarts::global};
 
-FitResult quickest_fit(const StudyCase& study, FitPlan plan, const std::vector<ProbePoint>& points, FootStarts starts) {
+BatchFit quickest_fit(const StudyCase& study, FitPlan plan, const std::vector<ProbePoint>& points, FootStarts starts) {
   plan.starts = starts;
-  FitResult best = fit_points(study.design, plan, points, study.name);
+  BatchFit best = fit_points(study.design, plan, points, study.name);
   for (int k = 1; k < kRepeats; ++k) {
-    const FitResult again = fit_points(study.design, plan, points, study.name);
+    const BatchFit again = fit_points(study.design, plan, points, study.name);
     best.fit.cpu_s = std::min(best.fit.cpu_s, again.fit.cpu_s);
     best.proof.cpu_s = std::min(best.proof.cpu_s, again.proof.cpu_s);
   }
@@ -51,14 +51,15 @@ ReportTable start_cost_table() {
 void add_start_costs(const StudyCase& study, const std::string& subset, ReportTable& table) {
   const std::vector<ProbePoint> points = read_subset_points(study, subset);
   for (const FootStarts starts : kWays) {
-    const FitResult fit = quickest_fit(study, study.plan, points, starts);
-    table.rows.push_back({study.name + " " + subset,
-                          std::string(kFootStartsWords[static_cast<std::size_t>(starts)]),
-                          study.name,
-                          subset,
-                          {static_cast<double>(points.size()), fit.fit.cpu_s, static_cast<double>(fit.fit.searches),
-                           static_cast<double>(fit.wrong_starts), fit.proof.cpu_s,
-                           static_cast<double>(fit.proof.searches), fit.all.rms_after / study.plan.mm_per_unit}});
+    const BatchFit fit = quickest_fit(study, study.plan, points, starts);
+    table.rows.push_back(
+        {study.name + " " + subset,
+         std::string(kFootStartsWords[static_cast<std::size_t>(starts)]),
+         study.name,
+         subset,
+         {static_cast<double>(points.size()), fit.fit.cpu_s, static_cast<double>(fit.fit.searches),
+          static_cast<double>(fit.wrong_starts), fit.proof.cpu_s, static_cast<double>(fit.proof.searches),
+          fit.result.all.rms_after / study.plan.mm_per_unit}});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/replay/points_csv.hpp"
+#include "drivers/text/units.hpp"
 #include "tools/design/image/image_writer.hpp"
 #include "tools/design/read_design.hpp"
 #include "tools/files/read_text.hpp"

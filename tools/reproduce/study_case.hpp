@@ -21,7 +21,7 @@ struct StudyCase {
   std::map<std::string, std::filesystem::path> points;  ///< of each subset
 };
 
-/// Reads case.json and the design in `folder`. Throws ToolError, one line that names the file and the mend.
+/// Reads case.json and the design in `folder`. Throws ToolError, one line that names the file and the fix.
 [[nodiscard]] StudyCase read_study_case(const std::filesystem::path& folder);
 
 /// The points of a subset [mm]. Throws ToolError as read_study_case().

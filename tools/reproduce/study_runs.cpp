@@ -13,11 +13,11 @@ double rounded(double value, int digits) {
   return std::round(value * unit) / unit;
 }
 
-FitResult run(const StudyCase& study, const FitPlan& plan, const std::vector<ProbePoint>& points,
-              const std::string& subset) {
-  FitResult result = fit_points(study.design, plan, points, study.points.at(subset).string());
-  result.verdicts.clear();
-  return result;
+BatchFit run(const StudyCase& study, const FitPlan& plan, const std::vector<ProbePoint>& points,
+             const std::string& subset) {
+  BatchFit fit = fit_points(study.design, plan, points, study.points.at(subset).string());
+  fit.result.points.clear();
+  return fit;
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ SubsetRuns run_subset(const StudyCase& study, const std::string& subset, bool co
   plan.localizer.ratio = kRatio;
   plan.localizer.mode = FitMode::min_tolerance;
   runs.smallest = run(study, plan, points, subset);
-  runs.smallest_mm = runs.smallest->report.tolerance_factor_mm;
+  runs.smallest_mm = runs.smallest->result.tolerance_factor;
   if (!(runs.smallest_mm > 0)) return runs;
   runs.epsilon_mm = plan.mm_per_unit * rounded(kAboveLeast * runs.smallest_mm / plan.mm_per_unit, 6);
   plan.localizer.mode = FitMode::constrained;

@@ -9,11 +9,11 @@ namespace bladefit {
 
 /// The fits of one subset, without their points. Lengths in mm.
 struct SubsetRuns {
-  FitResult least_squares;
-  std::optional<FitResult> smallest;  ///< at the smallest leading-edge tolerance, 10 times it elsewhere
-  std::optional<FitResult> optimum;   ///< least squares within epsilon and 10 epsilon
-  double smallest_mm = 0;             ///< that tolerance
-  double epsilon_mm = 0;              ///< 1.1 times it, rounded to six digits in the units of the case
+  BatchFit least_squares;
+  std::optional<BatchFit> smallest;  ///< at the smallest leading-edge tolerance, 10 times it elsewhere
+  std::optional<BatchFit> optimum;   ///< least squares within epsilon and 10 epsilon
+  double smallest_mm = 0;            ///< that tolerance
+  double epsilon_mm = 0;             ///< 1.1 times it, rounded to six digits in the units of the case
 };
 
 /// Fits the subset by least squares and, where asked, within tolerances. Throws ToolError where points are missing.

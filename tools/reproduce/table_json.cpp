@@ -1,7 +1,7 @@
+#include "tools/reproduce/table_json.hpp"
+
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "tools/reproduce/report_table.hpp"
 
 namespace bladefit {
 namespace {

@@ -1,10 +1,11 @@
+#include "tools/reproduce/table_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include "tools/reproduce/report_table.hpp"
 #include "tools/reproduce/thesis_figures.hpp"
 
 namespace bladefit {

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <optional>
 
+#include "drivers/text/units.hpp"
+#include "tools/results/words.hpp"
+
 namespace bladefit {
 namespace {
 
-constexpr double kInch = kMmPerInch;
 /// Printed changes that are off the printed distances by more than this are no rounding [per cent].
 constexpr double kRoundingOfChanges = 0.15;
 
@@ -47,7 +49,7 @@ std::vector<double> motion_values(const PrintedMotion& m) { return {m.tx, m.ty, 
 
 std::vector<double> motion_values(const Pose& pose) {
   const EulerAngles e = euler_angles(pose.rotation);
-  const Vec3 t = pose.translation / kInch;
+  const Vec3 t = pose.translation / kMmPerInch;
   return {t.x(), t.y(), t.z(), e.phi, e.theta, e.psi};
 }
 
@@ -121,8 +123,9 @@ void add_means(ReportTable& table, const ThesisStudy& study, double thesis) {
   table.rows.insert(table.rows.end(), means.begin(), means.end());
 }
 
-void note_status(ReportTable& table, int points, const FitResult& fit) {
-  if (fit.status != "converged") table.notes.push_back(fmt::format("{} points: bladefit: {}.", points, fit.status));
+void note_status(ReportTable& table, int points, const Result& fit) {
+  if (fit.status != word_of(FitStatus::converged))
+    table.notes.push_back(fmt::format("{} points: bladefit: {}.", points, fit.status));
 }
 
 ReportTable rms_table(const ThesisStudy& study, const std::vector<UnconstrainedPair>& rows) {
@@ -132,10 +135,10 @@ ReportTable rms_table(const ThesisStudy& study, const std::vector<UnconstrainedP
   for (const auto& [thesis, ours] : rows) {
     add(table, study, thesis, kThesisSource,
         {thesis.rms_before, thesis.rms_after, thesis.change_percent, thesis.cpu_s});
-    const FitResult& fit = ours.least_squares;
+    const Result& fit = ours.least_squares.result;
     add(table, study, thesis, "bladefit",
-        {fit.all.rms_before / kInch, fit.all.rms_after / kInch, change(fit.all.rms_before, fit.all.rms_after),
-         fit.fit.cpu_s});
+        {fit.all.rms_before / kMmPerInch, fit.all.rms_after / kMmPerInch, change(fit.all.rms_before, fit.all.rms_after),
+         ours.least_squares.fit.cpu_s});
     note_status(table, thesis.points, fit);
   }
   check_changes(table);
@@ -152,7 +155,7 @@ ReportTable motion_table(const ThesisStudy& study, const std::vector<Unconstrain
   for (const auto& [thesis, ours] : rows) {
     if (std::isinf(thesis.motion.tx)) continue;
     add(table, study, thesis, kThesisSource, motion_values(thesis.motion));
-    add(table, study, thesis, "bladefit", motion_values(ours.least_squares.report.pose));
+    add(table, study, thesis, "bladefit", motion_values(ours.least_squares.result.pose));
   }
   if (study.motion_note != nullptr) table.notes.emplace_back(study.motion_note);
   table.notes.emplace_back(kMotionNote);
@@ -162,14 +165,14 @@ ReportTable motion_table(const ThesisStudy& study, const std::vector<Unconstrain
 /// One of our two constrained fits.
 struct Bounded {
   const char* source;
-  const FitResult& fit;
-  double tolerance_mm;
+  const Result& fit;
+  double tolerance_mm, cpu_s;
 };
 
 std::vector<Bounded> bounded_fits(const SubsetRuns& runs) {
   std::vector<Bounded> fits;
-  if (runs.smallest) fits.push_back({kSmallest, *runs.smallest, runs.smallest_mm});
-  if (runs.optimum) fits.push_back({kOptimum, *runs.optimum, runs.epsilon_mm});
+  if (runs.smallest) fits.push_back({kSmallest, runs.smallest->result, runs.smallest_mm, runs.smallest->fit.cpu_s});
+  if (runs.optimum) fits.push_back({kOptimum, runs.optimum->result, runs.epsilon_mm, runs.optimum->fit.cpu_s});
   return fits;
 }
 
@@ -182,17 +185,17 @@ ReportTable region_table(const ThesisStudy& study, const std::vector<Constrained
                    after_column(),
                    change_column(),
                    time_column()};
-  const auto region = leading_edge ? &FitResult::leading_edge : &FitResult::rest;
+  const auto region = leading_edge ? &Result::leading_edge : &Result::rest;
   for (const auto& [thesis, ours] : rows) {
     const RegionFigures& printed = leading_edge ? thesis.leading_edge : thesis.rest;
     add(table, study, thesis, kThesisSource,
         {printed.constraint, printed.rms_before, printed.rms_after, printed.change_percent, thesis.cpu_s});
-    const double before = (ours.least_squares.*region).rms_after;
-    for (const auto& [source, fit, tolerance] : bounded_fits(ours)) {
+    const double before = (ours.least_squares.result.*region).rms_after;
+    for (const auto& [source, fit, tolerance, cpu_s] : bounded_fits(ours)) {
       const double after = (fit.*region).rms_after;
       add(table, study, thesis, source,
-          {(leading_edge ? 1.0 : 10.0) * tolerance / kInch, before / kInch, after / kInch, change(before, after),
-           fit.fit.cpu_s});
+          {(leading_edge ? 1.0 : 10.0) * tolerance / kMmPerInch, before / kMmPerInch, after / kMmPerInch,
+           change(before, after), cpu_s});
       note_status(table, thesis.points, fit);
     }
   }
@@ -215,9 +218,9 @@ ReportTable constrained_motion_table(const ThesisStudy& study, const std::vector
   for (const auto& [thesis, ours] : rows) {
     add(table, study, thesis, kThesisSource,
         joined(motion_values(thesis.motion), {thesis.max_leading_edge, thesis.max_rest}));
-    for (const auto& [source, fit, tolerance] : bounded_fits(ours)) {
+    for (const auto& [source, fit, tolerance, cpu_s] : bounded_fits(ours)) {
       add(table, study, thesis, source,
-          joined(motion_values(fit.report.pose), {fit.leading_edge.max_after / kInch, fit.rest.max_after / kInch}));
+          joined(motion_values(fit.pose), {fit.leading_edge.max_after / kMmPerInch, fit.rest.max_after / kMmPerInch}));
     }
   }
   if (study.constrained_motion_note != nullptr) table.notes.emplace_back(study.constrained_motion_note);
@@ -231,9 +234,10 @@ ReportTable global_table(const ThesisStudy& study, const std::vector<Constrained
   table.columns = {before_column(), after_column(), change_column()};
   for (const auto& [thesis, ours] : rows) {
     add(table, study, thesis, kThesisSource, {thesis.global_before, thesis.global_after, thesis.global_change_percent});
-    const double before = ours.least_squares.all.rms_after;
-    for (const auto& [source, fit, tolerance] : bounded_fits(ours)) {
-      add(table, study, thesis, source, {before / kInch, fit.all.rms_after / kInch, change(before, fit.all.rms_after)});
+    const double before = ours.least_squares.result.all.rms_after;
+    for (const auto& [source, fit, tolerance, cpu_s] : bounded_fits(ours)) {
+      add(table, study, thesis, source,
+          {before / kMmPerInch, fit.all.rms_after / kMmPerInch, change(before, fit.all.rms_after)});
     }
   }
   check_changes(table);

@@ -25,7 +25,7 @@ Pose product(const Pose& second, const Pose& first) {
 }
 
 /// What a pose is off the one wanted, as a row of values.
-std::vector<double> left_over(const Pose& found, const Pose& wanted, double mm_per_unit, const FitResult& fit) {
+std::vector<double> left_over(const Pose& found, const Pose& wanted, double mm_per_unit, const Result& fit) {
   const Pose rest = product(found, inverse(wanted));
   return {static_cast<double>(fit.all.count), rest.translation.norm() / mm_per_unit, rotation_log(rest.rotation).norm(),
           fit.all.rms_after / mm_per_unit};
@@ -61,22 +61,22 @@ ReportTable check_table() {
 void add_validity_checks(const StudyCase& study, const std::string& subset, ReportTable& table) {
   const std::vector<ProbePoint> points = read_subset_points(study, subset);
   const double mm = study.plan.mm_per_unit;
-  const Pose motion = fit_points(study.design, study.plan, points, subset).report.pose;
+  const Pose motion = fit_points(study.design, study.plan, points, subset).result.pose;
   const std::vector<std::byte> image = moved_image(study, inverse(motion));
   DesignImage moved;
   if (const Status status = DesignImage::open(image, moved); status != Status::ok) {
     throw ToolError(fmt::format("{}: the moved design: {}", study.name, status_text(status)));
   }
   const std::string label = fmt::format("{} {}", study.name, subset);
-  const FitResult zero = fit_points(moved, study.plan, points, subset);
-  table.rows.push_back({label, "zero motion", study.name, subset, left_over(zero.report.pose, Pose(), mm, zero)});
+  const Result zero = fit_points(moved, study.plan, points, subset).result;
+  table.rows.push_back({label, "zero motion", study.name, subset, left_over(zero.pose, Pose(), mm, zero)});
 
   SamplePlan plan;
   plan.count_u = plan.count_v = kGrid;
   plan.low = kWindow;
   plan.high = 1 - kWindow;
-  const FitResult same = fit_points(study.design, study.plan, sample_surface(moved, plan), subset);
-  table.rows.push_back({label, "same motion", study.name, subset, left_over(same.report.pose, motion, mm, same)});
+  const Result same = fit_points(study.design, study.plan, sample_surface(moved, plan), subset).result;
+  table.rows.push_back({label, "same motion", study.name, subset, left_over(same.pose, motion, mm, same)});
 }
 
 }  // namespace bladefit

@@ -5,27 +5,28 @@
 #include <string_view>
 
 #include "core/inspection/verdict.hpp"
+#include "core/localizer.hpp"
 
 namespace bladefit {
 
-/// The words of result.json and verdicts.csv, in the order of the enumerations.
+/// The words of result.json, verdicts.csv and the reports, in the order of the enumerations. A fit that is still
+/// tracking when it ends has not converged.
 inline constexpr std::array<std::string_view, 3> kKindWords = {"interior", "edge", "corner"};
 inline constexpr std::array<std::string_view, 2> kRegionWords = {"rest", "leading_edge"};
 inline constexpr std::array<std::string_view, 4> kStateWords = {"pending", "in", "out", "rejected"};
 inline constexpr std::array<std::string_view, 3> kActionWords = {"none", "cut", "weld"};
+inline constexpr std::array<std::string_view, 4> kFitWords = {"underdetermined", "not_converged", "converged",
+                                                              "infeasible"};
 
-[[nodiscard]] constexpr std::string_view word_of(FootKind kind) {
-  return kKindWords.at(static_cast<std::size_t>(kind));
+template <typename Value, std::size_t count>
+[[nodiscard]] constexpr std::string_view word_in(const std::array<std::string_view, count>& words, Value value) {
+  return words.at(static_cast<std::size_t>(value));
 }
-[[nodiscard]] constexpr std::string_view word_of(Region region) {
-  return kRegionWords.at(static_cast<std::size_t>(region));
-}
-[[nodiscard]] constexpr std::string_view word_of(PointState state) {
-  return kStateWords.at(static_cast<std::size_t>(state));
-}
-[[nodiscard]] constexpr std::string_view word_of(Action action) {
-  return kActionWords.at(static_cast<std::size_t>(action));
-}
+[[nodiscard]] constexpr std::string_view word_of(FootKind kind) { return word_in(kKindWords, kind); }
+[[nodiscard]] constexpr std::string_view word_of(Region region) { return word_in(kRegionWords, region); }
+[[nodiscard]] constexpr std::string_view word_of(PointState state) { return word_in(kStateWords, state); }
+[[nodiscard]] constexpr std::string_view word_of(Action action) { return word_in(kActionWords, action); }
+[[nodiscard]] constexpr std::string_view word_of(FitStatus status) { return word_in(kFitWords, status); }
 
 /// The value whose word this is; nothing for another word.
 template <typename Value, std::size_t count>

@@ -13,9 +13,9 @@ struct MachinePoint {
   std::uint16_t path = 0;             ///< scan line; 0 = unknown
 };
 
-/// Reads a points file: a header that names the columns x, y, z and, where known, i, j, k and path, in any order;
-/// then one point a line. Positions are multiplied by `mm_per_unit`. Lines that start with # are skipped.
-/// Throws ToolError (bad input) that names file, line and the fix.
+/// Reads the points that the machine touches, by the reader of recordings: the user's CSV is one format. A machine does
+/// not know weights, so those of the file are not served. Positions are multiplied by `mm_per_unit`.
+/// Throws ToolError (bad_input) that names file, line and the fix.
 [[nodiscard]] std::vector<MachinePoint> read_points_file(const std::string& path, double mm_per_unit);
 
 }  // namespace bladefit::simulate

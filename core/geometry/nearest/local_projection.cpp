@@ -30,7 +30,8 @@ double step_1d(double g, double h, double m, bool& newton) {
   return m > 0.0 ? -g / m : 0.0;
 }
 
-/// Newton where the Hessian is positive definite, Gauss-Newton where it is not, one variable alone where the other is held.
+/// Newton where the Hessian is positive definite, Gauss-Newton where it is not, one variable alone where the other is
+/// held.
 Step step_of(const DistanceQuadratic& q, bool hold_u, bool hold_v) {
   Step step;
   if (hold_u && hold_v) return {0, 0, true};

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <optional>
 
+#include "drivers/text/units.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -22,7 +23,7 @@ struct IgesUnit {
   double mm;
 };
 constexpr int kNamedUnitFlag = 3;
-constexpr std::array<IgesUnit, 11> kUnits = {{{"IN", "inch", 25.4},
+constexpr std::array<IgesUnit, 11> kUnits = {{{"IN", "inch", kMmPerInch},
                                               {"MM", "millimetre", 1.0},
                                               {"", "", 0.0},
                                               {"FT", "foot", 304.8},

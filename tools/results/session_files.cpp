@@ -1,4 +1,4 @@
-#include "tools/results/session_report.hpp"
+#include "tools/results/session_files.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,12 @@
 
 #include "drivers/text/read_file.hpp"
 #include "firmware_bridge/host/journal/journal_reader.hpp"
+#include "firmware_bridge/host/journal/session_file_names.hpp"
+#include "tools/files/output_file.hpp"
 #include "tools/files/tool_error.hpp"
-#include "tools/results/result_file.hpp"
-#include "tools/results/verdicts_file.hpp"
+#include "tools/results/json_reader.hpp"
+#include "tools/results/json_writer.hpp"
+#include "tools/results/verdicts_csv.hpp"
 
 namespace bladefit {
 namespace {
@@ -61,10 +64,10 @@ std::string read_part(const fs::path& folder, const char* name, const JournalCon
 }
 
 void check_same_run(const std::string& directory, const std::vector<ResultPoint>& result,
-                    const std::vector<ReportPoint>& points) {
+                    const std::vector<ResultPoint>& points) {
   const bool same = std::equal(
       result.begin(), result.end(), points.begin(), points.end(),
-      [](const ResultPoint& a, const ReportPoint& b) { return a.index + 1 == b.sequence && a.state == b.state; });
+      [](const ResultPoint& a, const ResultPoint& b) { return a.sequence == b.sequence && a.state == b.state; });
   if (same) return;
   throw ToolError(
       fmt::format("{}: {} ({} points) and {} ({} points) are not of one run; run the session again with the same "
@@ -83,7 +86,7 @@ std::uint32_t newest_point(const JournalContent& journal) {
 
 /// A session that was resumed leaves the result of its earlier part until it ends.
 void check_up_to_date(const std::string& directory, const JournalContent& journal,
-                      const std::vector<ReportPoint>& points) {
+                      const std::vector<ResultPoint>& points) {
   const std::uint32_t recorded = newest_point(journal);
   const std::uint32_t judged = points.empty() ? 0 : points.back().sequence;
   if (recorded == judged) return;
@@ -95,21 +98,31 @@ void check_up_to_date(const std::string& directory, const JournalContent& journa
 
 }  // namespace
 
-SessionReport read_session(const std::string& directory) {
+std::vector<std::string> write_session_files(const std::string& directory, const Result& result) {
+  const fs::path folder(directory);
+  const std::string verdicts_path = folder / kVerdictsFile;
+  const std::string result_path = folder / kResultFile;
+  OutputFile verdicts_file(verdicts_path, verdicts_csv(result.points));
+  OutputFile result_file(result_path, result_json(result));
+  verdicts_file.commit();
+  result_file.commit();
+  return {result_path, verdicts_path};
+}
+
+Result read_session(const std::string& directory) {
   check_directory(directory);
   const fs::path folder(directory);
   const JournalContent journal = read_recording(folder);
-  SessionReport report;
-  report.name = fs::weakly_canonical(folder).filename().string();
-  report.identity = journal.identity;
-  report.result_text = read_part(folder, kResultFile, journal);
+  const std::string text = read_part(folder, kResultFile, journal);
   const std::string verdicts = read_part(folder, kVerdictsFile, journal);
-  ResultContent result = parse_result(folder / kResultFile, report.result_text);
-  report.points = parse_verdicts(folder / kVerdictsFile, verdicts, result.fit.mm_per_unit);
-  check_same_run(directory, result.points, report.points);
-  check_up_to_date(directory, journal, report.points);
-  report.fit = std::move(result.fit);
-  return report;
+  Result result = parse_result(folder / kResultFile, text);
+  std::vector<ResultPoint> points = parse_verdicts(folder / kVerdictsFile, verdicts);
+  check_same_run(directory, result.points, points);
+  check_up_to_date(directory, journal, points);
+  result.name = fs::weakly_canonical(folder).filename().string();
+  result.identity = journal.identity;
+  result.points = std::move(points);
+  return result;
 }
 
 }  // namespace bladefit

@@ -1,6 +1,7 @@
-#include "tools/results/verdicts_file.hpp"
+#include "tools/results/verdicts_csv.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr std::array<std::string_view, 14> kColumns = {
     "sequence",     "patch",          "u",     "v",      "kind", "region", "distance_mm",
     "tolerance_mm", "uncertainty_mm", "state", "action", "x",    "y",      "z"};
 constexpr std::size_t kQuotedCharacters = 40;
-constexpr const char* kMend = "the file is damaged or foreign; run the session again with the same --session";
+constexpr const char* kRemedy = "the file is damaged or foreign; run the session again with the same --session";
 
 /// One line of the file, cut at its commas.
 struct Row {
@@ -27,7 +28,7 @@ struct Row {
   std::array<std::string_view, kColumns.size()> cells{};
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw ToolError(fmt::format("{}:{}: {}; {}", path, line, what, kMend));
+    throw ToolError(fmt::format("{}:{}: {}; {}", path, line, what, kRemedy));
   }
 
   [[noreturn]] void refuse_cell(std::size_t column, const char* wanted) const {
@@ -82,27 +83,38 @@ Row cut(const std::string& path, std::size_t line, std::string_view text) {
   return row;
 }
 
-ReportPoint point_of(const Row& row, double mm_per_unit) {
-  ReportPoint point{.sequence = row.whole(0),
-                    .position = {},
-                    .patch = row.whole(1),
-                    .u = row.parameter(2),
-                    .v = row.parameter(3),
-                    .kind = row.one_of<FootKind>(4, kKindWords),
-                    .region = row.one_of<Region>(5, kRegionWords),
-                    .distance = row.finite(6) / mm_per_unit,
-                    .tolerance = row.bound(7) / mm_per_unit,
-                    .uncertainty = row.bound(8) / mm_per_unit,
-                    .state = row.one_of<PointState>(9, kStateWords),
-                    .action = row.one_of<Action>(10, kActionWords)};
-  for (std::size_t axis = 0; axis < 3; ++axis) point.position.at(axis) = row.finite(11 + axis) / mm_per_unit;
+ResultPoint point_of(const Row& row) {
+  ResultPoint point;
+  point.sequence = row.whole(0);
+  point.patch = row.whole(1);
+  point.u = row.parameter(2);
+  point.v = row.parameter(3);
+  point.kind = row.one_of<FootKind>(4, kKindWords);
+  point.region = row.one_of<Region>(5, kRegionWords);
+  point.distance = row.finite(6);
+  point.tolerance = row.bound(7);
+  point.uncertainty = row.bound(8);
+  point.state = row.one_of<PointState>(9, kStateWords);
+  point.action = row.one_of<Action>(10, kActionWords);
+  for (std::size_t axis = 0; axis < 3; ++axis) point.position.at(axis) = row.finite(11 + axis);
   return point;
 }
 
 }  // namespace
 
-std::vector<ReportPoint> parse_verdicts(const std::string& path, std::string_view text, double mm_per_unit) {
-  std::vector<ReportPoint> points;
+std::string verdicts_csv(const std::vector<ResultPoint>& points) {
+  std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
+  for (const ResultPoint& point : points) {
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u, point.v,
+                        word_of(point.kind), word_of(point.region), point.distance, point.tolerance, point.uncertainty,
+                        word_of(point.state), word_of(point.action), point.position[0], point.position[1],
+                        point.position[2]);
+  }
+  return text;
+}
+
+std::vector<ResultPoint> parse_verdicts(const std::string& path, std::string_view text) {
+  std::vector<ResultPoint> points;
   for (std::size_t line = 1; !text.empty() || line == 1; ++line) {
     const std::size_t end = text.find('\n');
     const Row row = cut(path, line, text.substr(0, end));
@@ -112,7 +124,7 @@ std::vector<ReportPoint> parse_verdicts(const std::string& path, std::string_vie
       if (row.cells != kColumns) row.refuse("these are not the columns of a verdicts.csv");
       continue;
     }
-    points.push_back(point_of(row, mm_per_unit));
+    points.push_back(point_of(row));
     if (points.size() > 1 && points.back().sequence <= points[points.size() - 2].sequence)
       row.refuse("the sequence does not rise");
   }

@@ -1,0 +1,132 @@
+#include "tools/batch/result_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/batch/outliers.hpp"
+#include "tools/results/words.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Sums up in the order of the points.
+class Summing {
+ public:
+  void add(double before, double after) {
+    ++count_;
+    square_before_ += before * before;
+    square_after_ += after * after;
+    max_before_ = std::max(max_before_, std::abs(before));
+    max_after_ = std::max(max_after_, std::abs(after));
+  }
+
+  void write(FitDistances& sums) const {
+    if (count_ == 0) return;
+    sums.count = count_;
+    sums.rms_before = std::sqrt(square_before_ / count_);
+    sums.rms_after = std::sqrt(square_after_ / count_);
+    sums.max_after = max_after_;
+  }
+
+  [[nodiscard]] double max_before() const { return max_before_; }
+
+ private:
+  std::uint32_t count_ = 0;
+  double square_before_ = 0, square_after_ = 0, max_before_ = 0, max_after_ = 0;
+};
+
+void sum_up(const FinishedFit& fit, Result& result) {
+  Summing all, leading_edge, rest;
+  for (std::size_t i = 0; i < fit.verdicts.size(); ++i) {
+    const Verdict& after = fit.verdicts[i];
+    if (after.state == PointState::rejected) continue;
+    all.add(fit.before[i], after.foot.distance);
+    (after.region == Region::leading_edge ? leading_edge : rest).add(fit.before[i], after.foot.distance);
+  }
+  all.write(result.all);
+  result.all.max_before = all.max_before();
+  leading_edge.write(result.leading_edge);
+  rest.write(result.rest);
+}
+
+/// Largest radius about the shaft axis x of the design's control points [mm].
+double tip_radius(const DesignImage& design) {
+  double largest = 0.0;
+  const auto c = design.coefficients();
+  for (std::size_t k = 0; k + 3 < c.size(); k += 4)
+    largest = std::max(largest, std::hypot(c[k + 1], c[k + 2]) / c[k + 3]);
+  return largest;
+}
+
+ResultPoint point_of(const ProbePoint& point, const Verdict& verdict) {
+  const Foot& foot = verdict.foot;
+  return {.sequence = verdict.sequence,
+          .position = point.position,
+          .patch = foot.patch,
+          .u = foot.u,
+          .v = foot.v,
+          .kind = foot.kind,
+          .region = verdict.region,
+          .distance = foot.distance,
+          .tolerance = verdict.tolerance_mm,
+          .uncertainty = verdict.uncertainty_mm,
+          .state = verdict.state,
+          .action = verdict.action,
+          .foot = foot.point};
+}
+
+/// The tolerances that were asked for, or in min_tolerance those that were found.
+void set_tolerances(const FinishedFit& fit, Result& result) {
+  const LocalizerConfig& config = fit.plan.localizer;
+  const double factor = fit.report.tolerance_factor_mm;
+  const bool found = config.mode == FitMode::min_tolerance && factor > 0.0;
+  result.leading_edge.tolerance = found ? factor : config.tolerance.leading_edge_mm;
+  result.rest.tolerance = found ? config.ratio * factor : config.tolerance.rest_mm;
+}
+
+FitDetails details_of(const FinishedFit& fit) {
+  const LocalizerConfig& config = fit.plan.localizer;
+  return {.mode = config.mode,
+          .ratio = config.ratio,
+          .leading_edge_tolerance = config.tolerance.leading_edge_mm,
+          .rest_tolerance = config.tolerance.rest_mm,
+          .determined = fit.report.determined,
+          .unproven = fit.report.unproven,
+          .stationarity = fit.report.stationarity,
+          .tip_radius = tip_radius(fit.design)};
+}
+
+}  // namespace
+
+Result result_record(const FinishedFit& fit) {
+  const LocalizerConfig& config = fit.plan.localizer;
+  const FitReport& report = fit.report;
+  Result result;
+  result.status = word_of(report.status);
+  result.mode = word_of(fit.plan.localizer.mode);
+  result.units = fit.plan.units;
+  result.mm_per_unit = fit.plan.mm_per_unit;
+  result.pose = report.pose;
+  // sigma^2 (J'J)^-1 is that of the least-squares pose alone.
+  const bool determined = report.determined >= 6 && report.fitted > 6;
+  if (config.mode == FitMode::least_squares && determined) result.covariance = report.covariance;
+  sum_up(fit, result);
+  set_tolerances(fit, result);
+  const ToleranceMap& map = config.tolerance;
+  result.boxes.assign(map.boxes.begin(), map.boxes.begin() + map.box_count);
+  result.tolerance_factor = report.tolerance_factor_mm;
+  result.certificate = report.certificate;
+  result.further_starts = report.further_starts;
+  result.same_optimum = report.same_optimum;
+  result.locked = names_of_locked(config.locked);
+  if (config.loss != Loss::none) {
+    result.loss = LossUsed{std::string(word_of(config.loss)), report.loss_scale_mm};
+  }
+  result.outliers = find_outliers(report, config, fit.verdicts, fit.points);
+  result.points.reserve(fit.points.size());
+  for (std::size_t i = 0; i < fit.points.size(); ++i) result.points.push_back(point_of(fit.points[i], fit.verdicts[i]));
+  result.details = details_of(fit);
+  return result;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,183 @@
+#include "tools/results/json_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "drivers/text/units.hpp"
+#include "tools/results/json_field.hpp"
+#include "tools/results/words.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::size_t kQuotedCharacters = 40;
+
+double unit_of(const JsonField& units) {
+  const std::string name = units.text();
+  if (name == "mm") return 1.0;
+  if (name == "in") return kMmPerInch;
+  units.refuse(fmt::format("is '{}' where mm or in belongs", name.substr(0, kQuotedCharacters)));
+}
+
+/// The number that is written as `value` when it is divided by `divisor`. The product alone is often that number's
+/// neighbour, and its quotient another one than was read.
+double times(double value, double divisor) {
+  const double product = value * divisor, infinity = std::numeric_limits<double>::infinity();
+  for (const double near : {product, std::nextafter(product, -infinity), std::nextafter(product, infinity)}) {
+    if (near / divisor == value) return near;
+  }
+  return product;
+}
+
+double length_of(const JsonField& field, double mm_per_unit) { return times(field.number(), mm_per_unit); }
+
+void read_pose(const JsonField& json, Result& result) {
+  const JsonField rotation = json["rotation"], translation = json["translation"], euler = json["euler"];
+  rotation.need_size(3);
+  translation.need_size(3);
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto r = static_cast<Eigen::Index>(row);
+    rotation.element(row).need_size(3);
+    for (std::size_t column = 0; column < 3; ++column)
+      result.pose.rotation(r, static_cast<Eigen::Index>(column)) = rotation.element(row).element(column).number();
+    result.pose.translation[r] = length_of(translation.element(row), result.mm_per_unit);
+  }
+  // They follow from the rotation; a file without them is damaged.
+  for (const char* angle : {"psi", "theta", "phi"}) static_cast<void>(euler[angle].number());
+}
+
+std::optional<Mat6> read_covariance(const JsonField& json, double mm_per_unit) {
+  if (json.is_null()) return std::nullopt;
+  Mat6 covariance;
+  json.need_size(6);
+  for (std::size_t row = 0; row < 6; ++row) {
+    const JsonField cells = json.element(row);
+    cells.need_size(6);
+    for (std::size_t column = 0; column < 6; ++column) {
+      const double divisor = (row < 3 ? 1.0 : mm_per_unit) * (column < 3 ? 1.0 : mm_per_unit);
+      covariance(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) =
+          times(cells.element(column).number(), divisor);
+    }
+    if (cells.element(row).number() < 0) cells.element(row).refuse("is a negative variance");
+  }
+  return covariance;
+}
+
+void read_sums(const JsonField& json, double mm_per_unit, FitDistances& sums) {
+  sums.count = json["count"].whole();
+  sums.rms_before = length_of(json["rms_before"], mm_per_unit);
+  sums.rms_after = length_of(json["rms_after"], mm_per_unit);
+  sums.max_after = length_of(json["max_abs_after"], mm_per_unit);
+}
+
+void read_region(const JsonField& json, double mm_per_unit, RegionDistances& sums) {
+  read_sums(json, mm_per_unit, sums);
+  const JsonField tolerance = json["tolerance"];
+  if (!tolerance.is_null()) sums.tolerance = length_of(tolerance, mm_per_unit);
+}
+
+/// Limits of a box, each within 0 to 1.
+std::array<double, 2> read_limits(const JsonField& limits) {
+  limits.need_size(2);
+  const std::array<double, 2> values = {limits.element(0).number(), limits.element(1).number()};
+  if (!(0.0 <= values[0] && values[0] <= values[1] && values[1] <= 1.0)) limits.refuse("is no interval within 0 to 1");
+  return values;
+}
+
+std::vector<ParameterBox> read_boxes(const JsonField& leading_edge) {
+  std::vector<ParameterBox> boxes;
+  if (!leading_edge.has("boxes")) return boxes;
+  const JsonField list = leading_edge["boxes"];
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const auto u = read_limits(list.element(k)["u"]), v = read_limits(list.element(k)["v"]);
+    boxes.push_back({list.element(k)["patch"].whole(), u[0], u[1], v[0], v[1]});
+  }
+  return boxes;
+}
+
+Certificate read_certificate(const JsonField& json) {
+  Certificate certificate;
+  const JsonField points = json["points"], multipliers = json["multipliers"], signs = json["signs"];
+  if (points.size() > certificate.sequence.size()) points.refuse("has more elements than a certificate");
+  certificate.count = static_cast<std::uint32_t>(points.size());
+  multipliers.need_size(points.size());
+  signs.need_size(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    certificate.sequence.at(k) = points.element(k).whole() + 1;
+    certificate.multiplier.at(k) = multipliers.element(k).number();
+    certificate.sign.at(k) = signs.element(k).number() < 0 ? -1 : 1;
+  }
+  return certificate;
+}
+
+Outliers read_outliers(const JsonField& json, double mm_per_unit) {
+  Outliers outliers;
+  outliers.limit = json["limit"].number();
+  outliers.scale = length_of(json["scale"], mm_per_unit);
+  const JsonField points = json["points"];
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const JsonField point = points.element(k);
+    outliers.points.push_back(
+        {point["index"].whole() + 1, length_of(point["distance"], mm_per_unit), point["studentized"].number()});
+  }
+  return outliers;
+}
+
+/// What only some modes have, and what the files of earlier versions lack.
+void read_optional(const JsonField& root, Result& result) {
+  if (root.has("tolerance_factor")) result.tolerance_factor = length_of(root["tolerance_factor"], result.mm_per_unit);
+  if (root.has("certificate")) result.certificate = read_certificate(root["certificate"]);
+  if (root.has("further_starts")) {
+    result.further_starts = root["further_starts"]["count"].whole();
+    result.same_optimum = root["further_starts"]["same"].whole();
+  }
+  if (root.has("locked")) {
+    const JsonField locked = root["locked"];
+    for (std::size_t k = 0; k < locked.size(); ++k) result.locked.push_back(locked.element(k).text());
+  }
+  if (root.has("loss")) {
+    const JsonField loss = root["loss"];
+    result.loss = LossUsed{loss["name"].text(), length_of(loss["scale"], result.mm_per_unit)};
+  }
+  if (root.has("aberrant")) result.outliers = read_outliers(root["aberrant"], result.mm_per_unit);
+}
+
+ResultPoint read_point(const JsonField& json) {
+  ResultPoint point;
+  const JsonField state = json["state"];
+  const std::optional<PointState> value = value_of<PointState>(kStateWords, state.text());
+  if (!value) state.refuse("is no state of a point");
+  point.sequence = json["index"].whole() + 1;
+  point.state = *value;
+  return point;
+}
+
+}  // namespace
+
+Result parse_result(const std::string& path, const std::string& text) {
+  const nlohmann::json json = parse_json(path, text);
+  const JsonField root(json, path, "");
+  Result result;
+  result.text = text;
+  result.status = root["status"].text();
+  result.mode = root["mode"].text();
+  result.mm_per_unit = unit_of(root["units"]);
+  result.units = root["units"].text();
+  read_pose(root["pose"], result);
+  result.covariance = read_covariance(root["covariance"], result.mm_per_unit);
+  read_sums(root["summary"], result.mm_per_unit, result.all);
+  result.all.max_before = length_of(root["summary"]["max_abs_before"], result.mm_per_unit);
+  const JsonField leading_edge = root["regions"][word_of(Region::leading_edge).data()];
+  read_region(leading_edge, result.mm_per_unit, result.leading_edge);
+  result.boxes = read_boxes(leading_edge);
+  read_region(root["regions"][word_of(Region::rest).data()], result.mm_per_unit, result.rest);
+  read_optional(root, result);
+  const JsonField points = root["points"];
+  result.points.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) result.points.push_back(read_point(points.element(k)));
+  return result;
+}
+
+}  // namespace bladefit

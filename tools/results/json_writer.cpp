@@ -1,0 +1,132 @@
+#include "tools/results/json_writer.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tools/results/words.hpp"
+
+namespace bladefit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The key of a region's figures, and the word of it in a point.
+std::string key_of(Region region) { return std::string(word_of(region)); }
+
+Json length_or_null(double mm, double mm_per_unit) {
+  return std::isfinite(mm) ? Json(mm / mm_per_unit) : Json(nullptr);
+}
+
+Json pose_json(const Pose& pose, double mm_per_unit) {
+  Json rotation = Json::array(), translation = Json::array();
+  for (int i = 0; i < 3; ++i) {
+    rotation.push_back({pose.rotation(i, 0), pose.rotation(i, 1), pose.rotation(i, 2)});
+    translation.push_back(pose.translation[i] / mm_per_unit);
+  }
+  const EulerAngles e = euler_angles(pose.rotation);
+  return {{"rotation", rotation},
+          {"translation", translation},
+          {"euler", {{"psi", e.psi}, {"theta", e.theta}, {"phi", e.phi}}}};
+}
+
+/// sigma^2 (J'J)^-1 is that of the least-squares pose alone.
+Json covariance_json(const std::optional<Mat6>& covariance, double mm_per_unit) {
+  if (!covariance) return nullptr;
+  Json rows = Json::array();
+  for (int i = 0; i < 6; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 6; ++j)
+      row.push_back((*covariance)(i, j) / ((i < 3 ? 1.0 : mm_per_unit) * (j < 3 ? 1.0 : mm_per_unit)));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json region_json(const RegionDistances& sums, double mm_per_unit) {
+  return {{"count", sums.count},
+          {"rms_before", sums.rms_before / mm_per_unit},
+          {"rms_after", sums.rms_after / mm_per_unit},
+          {"max_abs_after", sums.max_after / mm_per_unit},
+          {"tolerance", length_or_null(sums.tolerance, mm_per_unit)}};
+}
+
+Json boxes_json(const std::vector<ParameterBox>& boxes) {
+  Json list = Json::array();
+  for (const ParameterBox& box : boxes)
+    list.push_back({{"patch", box.patch}, {"u", {box.u_min, box.u_max}}, {"v", {box.v_min, box.v_max}}});
+  return list;
+}
+
+Json certificate_json(const Certificate& certificate) {
+  if (certificate.count == 0) return nullptr;
+  Json points = Json::array(), multipliers = Json::array(), signs = Json::array();
+  for (std::uint32_t k = 0; k < certificate.count; ++k) {
+    points.push_back(certificate.sequence.at(k) - 1);
+    multipliers.push_back(certificate.multiplier.at(k));
+    signs.push_back(certificate.sign.at(k));
+  }
+  return {{"points", points}, {"multipliers", multipliers}, {"signs", signs}};
+}
+
+Json outliers_json(const Outliers& outliers, double mm_per_unit) {
+  if (!(outliers.limit > 0.0)) return nullptr;
+  Json points = Json::array();
+  for (const Outlier& p : outliers.points) {
+    points.push_back(
+        {{"index", p.sequence - 1}, {"distance", p.distance / mm_per_unit}, {"studentized", p.studentized}});
+  }
+  return {{"limit", outliers.limit}, {"scale", outliers.scale / mm_per_unit}, {"points", points}};
+}
+
+Json loss_json(const std::optional<LossUsed>& loss, double mm_per_unit) {
+  if (!loss) return nullptr;
+  return {{"name", loss->name}, {"scale", loss->scale / mm_per_unit}};
+}
+
+Json points_json(const std::vector<ResultPoint>& points, double mm_per_unit) {
+  Json list = Json::array();
+  for (const ResultPoint& point : points) {
+    list.push_back({{"index", point.sequence - 1},
+                    {"patch", point.patch},
+                    {"u", point.u},
+                    {"v", point.v},
+                    {"kind", word_of(point.kind)},
+                    {"region", word_of(point.region)},
+                    {"distance", point.distance / mm_per_unit},
+                    {"uncertainty", point.uncertainty / mm_per_unit},
+                    {"state", word_of(point.state)},
+                    {"action", word_of(point.action)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string result_json(const Result& result) {
+  const double unit = result.mm_per_unit;
+  Json json;
+  json["status"] = result.status;
+  json["mode"] = result.mode;
+  json["units"] = result.units;
+  json["pose"] = pose_json(result.pose, unit);
+  json["covariance"] = covariance_json(result.covariance, unit);
+  json["summary"] = {{"count", result.all.count},
+                     {"rms_before", result.all.rms_before / unit},
+                     {"rms_after", result.all.rms_after / unit},
+                     {"max_abs_before", result.all.max_before / unit},
+                     {"max_abs_after", result.all.max_after / unit}};
+  Json leading_edge = region_json(result.leading_edge, unit);
+  leading_edge["boxes"] = boxes_json(result.boxes);
+  json["regions"] = {{key_of(Region::leading_edge), leading_edge},
+                     {key_of(Region::rest), region_json(result.rest, unit)}};
+  json["tolerance_factor"] = result.tolerance_factor > 0.0 ? Json(result.tolerance_factor / unit) : Json(nullptr);
+  json["certificate"] = certificate_json(result.certificate);
+  json["further_starts"] = {{"count", result.further_starts}, {"same", result.same_optimum}};
+  json["locked"] = result.locked;
+  json["loss"] = loss_json(result.loss, unit);
+  json["aberrant"] = outliers_json(result.outliers, unit);  // the key that readers of result.json know
+  json["points"] = points_json(result.points, unit);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace bladefit

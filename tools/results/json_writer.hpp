@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+
+#include "tools/results/result.hpp"
+
+namespace bladefit {
+
+/// result.json: UTF-8 text with a final newline, lengths in the result's units. Numbers are written so that they read
+/// back as the same bits.
+[[nodiscard]] std::string result_json(const Result& result);
+
+}  // namespace bladefit

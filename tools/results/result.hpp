@@ -1,0 +1,107 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fit/fit_mode.hpp"
+#include "core/fit/pose.hpp"
+#include "core/inspection/verdict.hpp"
+#include "firmware_bridge/host/journal/journal_format.hpp"
+
+namespace bladefit {
+
+/// One point with its final verdict. Lengths in mm.
+struct ResultPoint {
+  std::uint32_t sequence = 0;        ///< from 1; the index in result.json is one less
+  std::array<double, 3> position{};  ///< as measured, machine frame
+  std::uint32_t patch = 0;
+  double u = 0, v = 0;  ///< of the foot, 0..1
+  FootKind kind = FootKind::interior;
+  Region region = Region::rest;
+  double distance = 0;     ///< > 0: excess material
+  double tolerance = 0;    ///< |distance| allowed; infinity = not judged
+  double uncertainty = 0;  ///< standard uncertainty of the distance that comes from the pose
+  PointState state = PointState::pending;
+  Action action = Action::none;
+  std::optional<Vec3> foot;  ///< on the design; nothing in a session that was read back, whose files do not hold it
+};
+
+/// Distances of the points that count in the fit [mm]. Before: at C = I, t = 0, whatever the start pose.
+struct FitDistances {
+  std::uint32_t count = 0;
+  double rms_before = 0, rms_after = 0, max_after = 0;
+};
+struct BladeDistances : FitDistances {
+  double max_before = 0;
+};
+struct RegionDistances : FitDistances {
+  double tolerance = std::numeric_limits<double>::infinity();  ///< that of the fit; infinity = not judged
+};
+
+/// A point that does not belong to the others: a chip under the probe, a wrong touch, or a defect of the blade.
+struct Outlier {
+  std::uint32_t sequence = 0;
+  double distance = 0;     ///< [mm]
+  double studentized = 0;  ///< distance / its standard deviation, signed
+};
+struct Outliers {
+  std::vector<Outlier> points;  ///< the largest first
+  double limit = 0;             ///< of |studentized|, beyond which a point is an outlier; 0 = none was sought
+  double scale = 0;             ///< robust standard deviation of a distance of weight 1 [mm]
+};
+
+/// The robust loss that a least-squares fit used.
+struct LossUsed {
+  std::string name;
+  double scale = 0;  ///< standard deviation of good points [mm]
+};
+
+/// What only the fit itself knows: the files of a session do not hold it.
+struct FitDetails {
+  FitMode mode = FitMode::least_squares;
+  double ratio = 1;                   ///< of the tolerances, rest to leading edge, in min_tolerance
+  double leading_edge_tolerance = 0;  ///< by which points were judged [mm]: in min_tolerance not that which was found
+  double rest_tolerance = 0;
+  std::uint32_t determined = 0;  ///< degrees of freedom
+  std::uint32_t unproven = 0;    ///< feet that could not be proven the nearest
+  double stationarity = 0;       ///< of the optimum's Karush-Kuhn-Tucker conditions, relative
+  double tip_radius = 0;         ///< largest radius of the design about its x axis [mm]
+};
+
+/// A fit and its points: what the summary, result.json, verdicts.csv and every report are made from. `localize` and
+/// `run` make it from a fit, `report` reads it back from the files of a session. Lengths in mm; a format that writes
+/// them in `units` divides by mm_per_unit.
+struct Result {
+  std::string name;                         ///< of the session's folder, or of the file of points
+  std::optional<SessionIdentity> identity;  ///< design and settings that a session's recording is bound to
+  std::string text;                         ///< result.json to the letter, where this was read from one
+
+  std::string status, mode;  ///< in the words of result.json
+  std::string units = "mm";  ///< mm or in
+  double mm_per_unit = 1.0;
+  Pose pose;                       ///< machine -> design
+  std::optional<Mat6> covariance;  ///< of (w, dt) [rad, mm]; nothing where undetermined
+  BladeDistances all;
+  RegionDistances leading_edge, rest;
+  std::vector<ParameterBox> boxes;   ///< of the leading-edge region
+  double tolerance_factor = 0;       ///< optimum of the mode; 0 = it has none
+  Certificate certificate;           ///< of that optimum
+  std::uint32_t further_starts = 0;  ///< from how many other poses the optimum was sought again,
+  std::uint32_t same_optimum = 0;    ///< and how many of these led to the same one
+  std::vector<std::string> locked;   ///< degrees of freedom that kept their start value: tx, ry ...
+  std::optional<LossUsed> loss;
+  Outliers outliers;
+  std::vector<ResultPoint> points;  ///< rising sequence
+  std::optional<FitDetails> details;
+
+  /// A length of this result in the units in which it is written.
+  [[nodiscard]] double in_units(double length) const { return length / mm_per_unit; }
+};
+
+/// Exit code: 1 where a point is out of tolerance or no pose meets the tolerances, else 0.
+[[nodiscard]] int exit_code_of(const Result& result);
+
+}  // namespace bladefit

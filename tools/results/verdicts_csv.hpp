@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/results/result.hpp"
+
+namespace bladefit {
+
+/// verdicts.csv: one line a point, lengths in mm, distances and feet in the design frame, x, y, z as measured. Numbers
+/// are written so that they read back as the same bits.
+[[nodiscard]] std::string verdicts_csv(const std::vector<ResultPoint>& points);
+
+/// Reads the text of a verdicts.csv, of which `path` is the name in errors. Throws ToolError (bad_input) that names the
+/// line, the column and the fix.
+[[nodiscard]] std::vector<ResultPoint> parse_verdicts(const std::string& path, std::string_view text);
+
+}  // namespace bladefit
