@@ -47,7 +47,7 @@ constexpr std::array kOptions{
               [](const S& s, double, C& c) { c.mode = *s.mode; },
               "what the fit minimises: least_squares (default): the sum of squared distances; minimax: the largest "
               "distance; range: the largest less the smallest signed distance; min_tolerance: the leading-edge "
-              "tolerance that can just be met, with ratio times it elsewhere; constrained: the sum of squares with "
+              "tolerance that can just be met, with ratio times it on the rest; constrained: the sum of squares with "
               "every distance within its tolerance",
               "\"least_squares\"", true},
     FitOption{"leading_edge", BoxesOption{&S::leading_edge}, apply_boxes,
@@ -57,7 +57,8 @@ constexpr std::array kOptions{
     FitOption{"tolerance", length_above_0(&S::tolerance), apply_tolerance,
               "distance allowed at the leading edge, in units", "0.1", true},
     FitOption{"rest_tolerance", length_above_0(&S::rest_tolerance), apply_rest_tolerance,
-              "distance allowed elsewhere, in units (default: ratio times that at the leading edge)", "1.0"},
+              "distance allowed on the rest of the blade, in units (default: ratio times that at the leading edge)",
+              "1.0"},
     FitOption{"ratio", NumberOption{&S::ratio, 1, kLargest}, [](const S& s, double, C& c) { c.ratio = *s.ratio; },
               "rest tolerance / leading-edge tolerance (default 10): gives the rest tolerance where that is not given, "
               "and is the ratio that min_tolerance holds",

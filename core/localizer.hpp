@@ -79,7 +79,7 @@ struct FitReport {
   /// Optimum of the mode: minimax max |d|, range max d - min d, min_tolerance the smallest leading-edge tolerance;
   /// where constrained is infeasible, the smallest leading-edge tolerance that is not, the ratio kept, or where there
   /// is none the smallest tolerance of the rest [mm]. 0 until known.
-  double tolerance_factor_mm = 0;
+  double mode_value_mm = 0;
   /// Smallest leading-edge tolerance that some pose meets, the ratio kept, from min_tolerance and constrained; 0 until
   /// known [mm].
   double smallest_tolerance_mm = 0;

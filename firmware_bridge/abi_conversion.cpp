@@ -128,7 +128,7 @@ bladefit_fit_report translate_report(const FitReport& from) {
   to.rest = translate_region(from.rest);
   to.improving = from.improving ? 1 : 0;
   to.unproven = from.unproven;
-  to.tolerance_factor_mm = from.tolerance_factor_mm;
+  to.tolerance_factor_mm = from.mode_value_mm;
   to.smallest_tolerance_mm = from.smallest_tolerance_mm;
   to.stationarity = from.stationarity;
   to.loss_scale_mm = from.loss_scale_mm;

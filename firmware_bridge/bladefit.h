@@ -70,7 +70,7 @@ enum {
   BLADEFIT_LEAST_SQUARES = 0, /* the sum of squared distances */
   BLADEFIT_MINIMAX = 1,       /* the largest distance */
   BLADEFIT_RANGE = 2,         /* the largest less the smallest signed distance */
-  BLADEFIT_MIN_TOLERANCE = 3, /* the leading-edge tolerance, `ratio` times it elsewhere */
+  BLADEFIT_MIN_TOLERANCE = 3, /* the leading-edge tolerance, `ratio` times it on the rest */
   BLADEFIT_CONSTRAINED = 4    /* the sum of squares, every distance within its tolerance */
 };                            /* bladefit_config.mode: what the fit minimises */
 enum { BLADEFIT_REGIONS_FOLLOW = 0, BLADEFIT_REGIONS_FIXED = 1 };                  /* bladefit_config.regions */
@@ -104,7 +104,7 @@ typedef struct bladefit_box {
 typedef struct bladefit_config {
   uint32_t struct_size;             /* sizeof(bladefit_config) */
   uint32_t capacity;                /* points that keep a place, 6..BLADEFIT_MAX_CAPACITY */
-  uint32_t refresh_per_push;        /* stored points projected anew in each push, 2..64 */
+  uint32_t refresh_per_push;        /* stored points projected again in each push, 2..64 */
   uint32_t use_approach;            /* 1: approach vectors choose the side of the blade; 0: they are ignored */
   uint32_t edges;                   /* BLADEFIT_EDGES_SKIP or _USE: whether feet on edges and corners count */
   uint32_t box_count;               /* leading-edge boxes in use, 0..BLADEFIT_MAX_BOXES */
@@ -125,7 +125,7 @@ typedef struct bladefit_config {
                                              _FIXED: of its foot at the least-squares fit */
   uint32_t locked;                        /* sum of BLADEFIT_LOCK_..., not all six */
   uint32_t loss;                          /* BLADEFIT_LOSS_...: robust loss of a least-squares fit */
-  double ratio;                           /* >= 1, or 0 for 10; min_tolerance: tolerance elsewhere / leading edge */
+  double ratio;                           /* >= 1, or 0 for 10; min_tolerance: tolerance of the rest / leading edge */
   double loss_scale_mm;                   /* >= 0; standard deviation of good points; 0 = bladefit_refine() finds it */
 } bladefit_config;
 
@@ -239,7 +239,7 @@ bladefit_status bladefit_push(bladefit_handle* handle, const bladefit_point* poi
  * NULL_ARGUMENT, MISALIGNED, BAD_SIZE or BAD_HANDLE. */
 bladefit_status bladefit_next_revision(bladefit_handle* handle, bladefit_verdict* verdict);
 
-/* The handle's thread. Projects up to max_points stored points anew and moves the pose. Returns OK (the fit has
+/* The handle's thread. Projects up to max_points stored points again and moves the pose. Returns OK (the fit has
  * converged, and every foot was checked), UNDERDETERMINED (converged in the determined directions), MORE_WORK,
  * ITERATION_CAP; NULL_ARGUMENT, MISALIGNED or BAD_HANDLE. */
 bladefit_status bladefit_refine(bladefit_handle* handle, uint32_t max_points);

@@ -47,7 +47,7 @@ FitReport report_of(const LocalizerParts& p) {
   report.memory_full = p.stream.accepted > p.store.size();
   const bool converged = p.refinement.phase() == RefinementPhase::done;
   report.improving = p.plan.bounded() && !converged && p.stream_optimum.improving(p.store);
-  report.tolerance_factor_mm = p.optimum.value;
+  report.mode_value_mm = p.optimum.value;
   report.smallest_tolerance_mm = p.optimum.smallest_tolerance;
   report.certificate = p.optimum.certificate;
   report.stationarity = p.optimum.stationarity;

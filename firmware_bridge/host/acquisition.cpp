@@ -144,7 +144,7 @@ bool Acquisition::run_id_has_changed() {
 bool Acquisition::link_is_gone() {
   if (source_.status().link != LinkState::lost) return false;
   shared_.outcome.fail(
-      device_failure(fmt::format("the link is lost and did not come back: {}; mend it, then run the session "
+      device_failure(fmt::format("the link is lost and did not come back: {}; repair it, then run the session "
                                  "again with the same --session to go on",
                                  source_.status().last_fault)));
   return true;

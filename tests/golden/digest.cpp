@@ -72,7 +72,7 @@ void add(Digest& digest, const FitReport& r) {
     digest.add(count);
   }
   for (const double number : {r.rms_mm, r.sigma_mm, r.loss_scale_mm, r.smallest_eigenvalue, r.gradient,
-                              r.tolerance_factor_mm, r.smallest_tolerance_mm, r.stationarity}) {
+                              r.mode_value_mm, r.smallest_tolerance_mm, r.stationarity}) {
     digest.add(number);
   }
   add(digest, r.leading_edge);

@@ -94,7 +94,7 @@ TEST_F(FitChoices, AberrantPointsAreNamedAndARobustLossLeavesThemBehind) {
     if (row == 17) line = fmt::format("{}", std::stod(line.substr(0, comma)) + 3.0) + line.substr(comma);
     text += line + ",2\n";
   }
-  const std::string points = written("aberrant.csv", text);
+  const std::string points = written("outliers.csv", text);
   const Outcome plain = localize({"--points", points});
   ASSERT_EQ(plain.exit_code, 0) << plain.output;
   const nlohmann::json before = read_json(scratch("result.json"));

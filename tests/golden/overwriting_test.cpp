@@ -1,4 +1,4 @@
-// An output never takes the place of what it is made from: exit code 2, one line with the mend, every file as it was.
+// An output never takes the place of what it is made from: exit code 2, one line with the fix, every file as it was.
 
 #include <algorithm>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Wrong use of loft, split and sample: one line that names the mend, exit code 2 or 3, and no file left behind.
+// Wrong use of loft, split and sample: one line that names the fix, exit code 2 or 3, and no file left behind.
 
 #include <algorithm>
 #include <fstream>

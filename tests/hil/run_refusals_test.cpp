@@ -1,4 +1,4 @@
-// Missing, busy and foreign devices: one line that names the device and the mend, exit code 3 (2 for a recording that
+// Missing, busy and foreign devices: one line that names the device and the fix, exit code 3 (2 for a recording that
 // cannot be used), no result left behind.
 #include <gtest/gtest.h>
 

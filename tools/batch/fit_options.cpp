@@ -60,8 +60,9 @@ std::string explained(const ConfigFault& fault, const LocalizerConfig& fit, std:
            "smallest one";
   }
   if (field == "ratio") {
-    return fmt::format("--rest-tolerance: it is {:g} times --tolerance; min_tolerance needs the wider one elsewhere",
-                       fit.ratio);
+    return fmt::format(
+        "--rest-tolerance: it is {:g} times --tolerance; min_tolerance needs the wider one on the rest of the blade",
+        fit.ratio);
   }
   if (field == "loss") return fmt::format("--loss {}: only for --mode least_squares; leave it out", word_of(fit.loss));
   return fmt::format("the fit's {} {}; correct the options", field, fault.reason);

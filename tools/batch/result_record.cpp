@@ -78,7 +78,7 @@ ResultPoint point_of(const ProbePoint& point, const Verdict& verdict) {
 /// The tolerances that were asked for, or in min_tolerance those that were found.
 void set_tolerances(const FinishedFit& fit, Result& result) {
   const LocalizerConfig& config = fit.plan.localizer;
-  const double factor = fit.report.tolerance_factor_mm;
+  const double factor = fit.report.mode_value_mm;
   const bool found = config.mode == FitMode::min_tolerance && factor > 0.0;
   result.leading_edge.tolerance = found ? factor : config.tolerance.leading_edge_mm;
   result.rest.tolerance = found ? config.ratio * factor : config.tolerance.rest_mm;
@@ -114,7 +114,7 @@ Result result_record(const FinishedFit& fit) {
   set_tolerances(fit, result);
   const ToleranceMap& map = config.tolerance;
   result.boxes.assign(map.boxes.begin(), map.boxes.begin() + map.box_count);
-  result.tolerance_factor = report.tolerance_factor_mm;
+  result.tolerance_factor = report.mode_value_mm;
   result.certificate = report.certificate;
   result.further_starts = report.further_starts;
   result.same_optimum = report.same_optimum;

@@ -49,7 +49,7 @@ std::string action_word(Action action) {
 }
 
 std::string region_word(Region region) {
-  static constexpr std::array<std::string_view, 2> kWords = {"elsewhere", "leading edge"};
+  static constexpr std::array<std::string_view, 2> kWords = {"rest of blade", "leading edge"};
   return word_at(kWords, static_cast<std::size_t>(region));
 }
 
@@ -57,7 +57,7 @@ std::string alarm_words(const PanelState& state) {
   static constexpr std::array<std::pair<PanelAlarm, std::string_view>, 6> kWords = {
       {{kAlarmInfeasible, "INFEASIBLE"},
        {kAlarmLeadingEdgeOut, "LEADING EDGE OUT"},
-       {kAlarmRestOut, "point out elsewhere"},
+       {kAlarmRestOut, "rest of blade out"},
        {kAlarmLinkLost, "LINK LOST"},
        {kAlarmDataGap, "POINTS MISSING"},
        {kAlarmMemoryFull, "memory full"}}};

@@ -117,7 +117,7 @@ std::string worst_words(float distance, std::uint32_t sequence) {
 void draw_worst(const ScreenView& view, Page& page) {
   const PanelState& state = view.state;
   const Style style = state.leading_edge_out > 0 ? Style::bad : Style::strong;
-  page.put(page.line().to(kValueColumn).add("leading edge").to(kSecondColumn).add("elsewhere"));
+  page.put(page.line().to(kValueColumn).add("leading edge").to(kSecondColumn).add("rest of blade"));
   page.put(page.line()
                .add(" tolerance")
                .to(kValueColumn)
@@ -189,7 +189,8 @@ std::string status_line(const ScreenView& view) {
   if (!view.known) return fmt::format("{}: {}", view.address, link_word(view));
   const PanelState& state = view.state;
   std::string line = fmt::format(
-      "{}, {}; {} points, {:.1f} a second; fit {}, {} of 6, rms {:.4f} mm; leading edge: {} out, worst {}; elsewhere: "
+      "{}, {}; {} points, {:.1f} a second; fit {}, {} of 6, rms {:.4f} mm; leading edge: {} out, worst {}; rest of "
+      "blade: "
       "{} out",
       session_word(state.session), link_word(view), state.points, view.points_per_second, fit_words(state),
       state.determined, real(state.rms), state.leading_edge_out,

@@ -116,7 +116,7 @@ std::string headline(const Result& result) {
   const RegionFindings edge = findings_of(result, Region::leading_edge), rest = findings_of(result, Region::rest);
   switch (outcome_of(result)) {
     case Outcome::out_of_tolerance:
-      return fmt::format("Out of tolerance: {}, {} at the leading edge, {} elsewhere",
+      return fmt::format("Out of tolerance: {}, {} at the leading edge, {} on the rest of the blade",
                          counted(edge.out() + rest.out(), "point"), edge.out(), rest.out());
     case Outcome::undecided:
       return "Not decided: the fit is not final";

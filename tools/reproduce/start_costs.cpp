@@ -44,7 +44,7 @@ ReportTable start_cost_table() {
       "fit ends with a search for every foot at its optimum.");
   table.notes.emplace_back(
       "First feet that were only tracked are proven by a search afterwards, since distances before the fit are told. "
-      "Where one was wrong the fit is made anew from searched feet, and the proof contains that fit.");
+      "Where one was wrong the fit is made again from searched feet, and the proof contains that fit.");
   return table;
 }
 

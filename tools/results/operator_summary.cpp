@@ -133,7 +133,7 @@ std::string optimum_line(const Result& result) {
       return fmt::format("Range of distances: {}, the smallest found{}\n", length(result, factor),
                          other_starts(result));
     case FitMode::min_tolerance:
-      return fmt::format("Smallest leading-edge tolerance that can be met: {} ({} elsewhere){}\n",
+      return fmt::format("Smallest leading-edge tolerance that can be met: {} (rest of blade {}){}\n",
                          length(result, factor), length(result, result.details->ratio * factor), other_starts(result)) +
              proof;
     case FitMode::constrained:
@@ -177,7 +177,7 @@ std::string tolerance_lines(const Result& result) {
     return std::isfinite(mm) ? fmt::format("{:.3f} {}", result.in_units(mm), result.units) : std::string("none");
   };
   std::string text =
-      fmt::format("Tolerance: leading edge {}, elsewhere {}\n", has_edge ? allowed(edge) : "none", allowed(rest));
+      fmt::format("Tolerance: leading edge {}, rest of blade {}\n", has_edge ? allowed(edge) : "none", allowed(rest));
   if (std::isfinite(edge) && has_edge)
     text += region_line(result, Region::leading_edge, "leading-edge") + worst_list(result);
   if (std::isfinite(rest)) text += region_line(result, Region::rest, "other");

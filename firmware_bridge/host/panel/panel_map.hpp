@@ -17,10 +17,10 @@ namespace bladefit {
 ///   8-9    leading-edge points out of tolerance     10-11  other points out of tolerance
 ///   12-13  rejected points                          14-15  RMS
 ///   16-17  leading-edge RMS                         18-19  worst leading-edge distance, signed; 20-21 its sequence
-///   22-23  worst distance elsewhere; 24-25 its sequence
+///   22-23  worst distance on the rest; 24-25 its sequence
 ///   26-37  tx, ty, tz, psi, theta, phi
 ///   38-39  last sequence; 40-41 its distance; 42 its state; 43 its action; 44 its region
-///   45-46  leading-edge tolerance; 47-48 tolerance elsewhere (infinity: not judged)
+///   45-46  leading-edge tolerance; 47-48 tolerance of the rest (infinity: not judged)
 ///   49-50  float32 99th percentile of the time that a push takes [us]
 ///   51     heartbeat, +1 a second
 ///   52-53  smallest feasible leading-edge tolerance, live, of the modes min_tolerance and constrained; else 0

@@ -114,7 +114,7 @@ TEST(CoreLock, EveryModeHoldsItAndProvesItsOptimum) {
     EXPECT_NEAR(p[5], 0.0, 1e-16);
     EXPECT_LT(held.report.stationarity, 1e-9);
     if (mode != FitMode::constrained) {
-      EXPECT_GT(held.report.tolerance_factor_mm, free.report.tolerance_factor_mm);
+      EXPECT_GT(held.report.mode_value_mm, free.report.mode_value_mm);
       EXPECT_LE(held.report.certificate.count, 5U);
     } else {
       EXPECT_GT(held.report.rms_mm, free.report.rms_mm);

@@ -65,14 +65,14 @@ TEST(CoreFurtherStarts, FindNoWorseOptimaAndSometimesBetterOnes) {
       const FitReport report = sought->fit();
       EXPECT_EQ(report.further_starts, 12U);
       EXPECT_LE(report.same_optimum, 12U);
-      const double value = report.tolerance_factor_mm;
+      const double value = report.mode_value_mm;
       EXPECT_NEAR(value_at(*sought, design, config, points), value, 1e-9);
       if (!found) {
         ++rescued;
         continue;
       }
-      EXPECT_LE(value, plain->fit().tolerance_factor_mm * (1 + 1e-9));
-      if (value < plain->fit().tolerance_factor_mm * (1 - 1e-6)) ++better;
+      EXPECT_LE(value, plain->fit().mode_value_mm * (1 + 1e-9));
+      if (value < plain->fit().mode_value_mm * (1 - 1e-6)) ++better;
     }
   }
   EXPECT_GT(better, 0);
@@ -133,7 +133,7 @@ TEST(CoreFurtherStarts, LeavePoseAndVerdictsAloneAndEndWhenAPointComes) {
   points.push_back(last);
   const Batch batch(design, config, points);
   ASSERT_EQ(refine_fully(*batch), Status::ok);
-  EXPECT_NEAR(sought->fit().tolerance_factor_mm, batch->fit().tolerance_factor_mm, 1e-9);
+  EXPECT_NEAR(sought->fit().mode_value_mm, batch->fit().mode_value_mm, 1e-9);
 }
 
 }  // namespace

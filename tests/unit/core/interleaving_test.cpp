@@ -100,7 +100,7 @@ TEST(CoreInterleaving, AResetLocalizerHasTheBitsOfANewOne) {
   }
 }
 
-/// Points that wait for the end of a sweep to be taken anew in every push are in no sums of that sweep.
+/// Points that wait for the end of a sweep to be taken again in every push are in no sums of that sweep.
 TEST(CoreInterleaving, PointsStagedBetweenPushesLeaveNoneOut) {
   for (const char* name : {"arl_fan", "dtmb4119", "pnsy_sub"}) {
     const ReferenceCase c = read_case(name);

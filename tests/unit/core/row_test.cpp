@@ -1,4 +1,4 @@
-// First and second derivatives of an oriented distance, against differences of the distance projected anew.
+// First and second derivatives of an oriented distance, against differences of the distance projected again.
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -40,7 +40,7 @@ class Situation {
     return distance_row(p, foot_of(surface_, p, radius_), r, x, frame_);
   }
 
-  /// The distance after the motion x, its foot sought anew.
+  /// The distance after the motion x, its foot searched again.
   [[nodiscard]] double distance(const Vec6& x) const { return foot_of(surface_, moved_foot(x), radius_).distance; }
 
   /// All feet within `reach` [mm of x] of here are of one kind, so that the distance is smooth there. 24 directions.

@@ -33,7 +33,7 @@ std::vector<ProbePoint> points_between(const Surface& surface, const Pose& pose,
   return points;
 }
 
-/// Their foot may jump with every motion of the pose, so their rows are taken anew in every push; a search each time
+/// Their foot may jump with every motion of the pose, so their rows are taken again in every push; a search each time
 /// would take a millisecond at a centre of curvature.
 TEST(RunnerUp, PointsBetweenTwoFeetAreNotSearchedAgainInEveryPush) {
   const BladeSession s;

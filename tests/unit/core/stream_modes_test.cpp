@@ -46,8 +46,8 @@ TEST_P(StreamModes, FollowTheBatchOptimum) {
     if (i < 400 || i % 100 != 0) continue;
     const FitReport now = localizer->fit(), whole = batch(i + 1);
     const bool constrained = GetParam() == FitMode::constrained;
-    const double value = constrained ? now.smallest_tolerance_mm : now.tolerance_factor_mm;
-    const double optimum = constrained ? whole.smallest_tolerance_mm : whole.tolerance_factor_mm;
+    const double value = constrained ? now.smallest_tolerance_mm : now.mode_value_mm;
+    const double optimum = constrained ? whole.smallest_tolerance_mm : whole.mode_value_mm;
     ++compared;
     EXPECT_LT(value, optimum * 1.001) << i;
     if (value > 0.99 * optimum) ++near;
@@ -66,7 +66,7 @@ TEST_P(StreamModes, FollowTheBatchOptimum) {
   const FitReport fit = localizer->fit(), whole = batch(points_.size());
   EXPECT_FALSE(fit.improving);
   EXPECT_EQ(fit.status, whole.status);
-  EXPECT_NEAR(fit.tolerance_factor_mm, whole.tolerance_factor_mm, 1e-8 * whole.tolerance_factor_mm);
+  EXPECT_NEAR(fit.mode_value_mm, whole.mode_value_mm, 1e-8 * whole.mode_value_mm);
   EXPECT_LT((fit.pose.rotation - whole.pose.rotation).norm(), 1e-9);
   EXPECT_LT((fit.pose.translation - whole.pose.translation).norm(), 1e-7);
 }
@@ -81,8 +81,8 @@ TEST_P(StreamModes, GoOnFromARefinement) {
   for (std::size_t i = 1000; i < 1010; ++i) ASSERT_TRUE(succeeded(localizer->push(points_[i], verdict)));
   const FitReport now = localizer->fit();
   EXPECT_LT((now.pose.translation - refined.pose.translation).norm(), 0.02);
-  const double before = std::max(refined.tolerance_factor_mm, refined.smallest_tolerance_mm);
-  EXPECT_NEAR(std::max(now.tolerance_factor_mm, now.smallest_tolerance_mm), before, 0.02 * before);
+  const double before = std::max(refined.mode_value_mm, refined.smallest_tolerance_mm);
+  EXPECT_NEAR(std::max(now.mode_value_mm, now.smallest_tolerance_mm), before, 0.02 * before);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, StreamModes,

@@ -160,7 +160,7 @@ TEST(SerialSource, TakesItsEchoOut) {
   EXPECT_EQ(source->status().damaged, 0U) << source->status().last_fault;
 }
 
-TEST(SerialSourceErrors, NameTheDeviceAndTheMend) {
+TEST(SerialSourceErrors, NameTheDeviceAndTheFix) {
   const Cable cable;
   const SerialSettings settings = serial_settings(cable);
   const auto opened = [](const SerialSettings& wanted) { return make_source(wanted)->open(0, 0).message; };

@@ -1,4 +1,4 @@
-// Verdicts in, counts out: against counting everything anew.
+// Verdicts in, counts out: against counting everything again.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -25,7 +25,7 @@ struct BladeSections {
 /// Reads sections from `text`, the content of the file `name`. The first line that is neither empty nor a comment (#)
 /// names the columns, in any order: section (any name), x, y, z, optionally index (rising inside a section) and
 /// r_over_R (one value a section). Rows with the same section stand together; sections may have different numbers of
-/// points. Throws ToolError naming the line, the column and the mend. Cost: linear in the size.
+/// points. Throws ToolError naming the line, the column and the fix. Cost: linear in the size.
 BladeSections parse_sections_csv(std::string_view text, const std::string& name);
 
 /// The same for the file at `path`. Throws ToolError as read_text does as well.

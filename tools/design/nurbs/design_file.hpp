@@ -11,7 +11,7 @@ namespace bladefit {
 struct DesignFile {
   std::vector<NurbsSurface> surfaces;  ///< at least one; patch k of the design is surfaces[k]
   DesignUnit unit = DesignUnit::mm;    ///< in which lengths of this design are shown
-  std::vector<std::string> warnings;   ///< one line each: what was mended or left out
+  std::vector<std::string> warnings;   ///< one line each: what was repaired or left out
   std::vector<std::string>
       trimmed;  ///< faces bounded inside their surface, which is used whole; as the file names them
 };

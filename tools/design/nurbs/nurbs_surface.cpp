@@ -18,7 +18,7 @@ constexpr double kRangeOvershoot = 1e-6;
 /// No blade is larger than this [mm], and beyond it squares of squares leave the range of numbers.
 constexpr double kLargestCoordinate = 1e9;
 
-/// What is being checked, for messages, and where the mended things are listed.
+/// What is being checked, for messages, and where repairs are listed.
 struct Context {
   std::string file, surface;
   char direction = 'u';

@@ -23,7 +23,7 @@ struct NurbsSurface {
 
 /// Checks every field of `surface` and makes knots that differ by less than 1e-12 of the range one knot, so that
 /// noise in the last digits makes no sliver spans. `file` is named in messages.
-/// Returns one line for each thing that was mended (none for a clean surface).
+/// Returns one line for each thing that was repaired (none for a clean surface).
 /// Throws ToolError naming the field: degree, number of knots, falling or not finite knots, multiplicity, torn
 /// surface, parameter range, control points, weights.
 std::vector<std::string> check_surface(NurbsSurface& surface, const std::string& file);
