@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/cpu_clock.hpp"
 #include "tools/batch/owned_localizer.hpp"
 #include "tools/files/exit_codes.hpp"

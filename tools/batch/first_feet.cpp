@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/path_curve.hpp"
 #include "tools/files/tool_error.hpp"
 
