@@ -126,10 +126,14 @@ TEST(PointStore, ForgetsEverythingWhenCleared) {
   fill(store, 4, Region::rest);
   store.count_search();
   EXPECT_EQ(store.next_to_evict(in_use_are_none), 0U);
+  store.replace(0, numbered(5));
   store.clear();
   EXPECT_EQ(store.size(), 0U);
   EXPECT_EQ(store.searches(), 0U);
-  EXPECT_EQ(store.find(1), 0U);
+  EXPECT_EQ(store.find(5), 0U);
+  store.append(numbered(1));
+  EXPECT_EQ(store.find(3), 1U) << "size(), although it was there before";
+  store.clear();
   fill(store, 4, Region::rest);
   EXPECT_EQ(store.next_to_evict(in_use_are_none), 0U);
 }
