@@ -37,7 +37,7 @@ double LossSchedule::robust_scale(const PointStore& store, const PointSelection&
 
 bool LossSchedule::adapt(const PointStore& store, const PointSelection& selection) {
   if (config_.loss == Loss::none || config_.loss_scale_mm > 0.0) return false;
-  if (rounds_++ == tuning::kScaleRounds) return false;
+  if (rounds_++ >= tuning::kScaleRounds) return false;
   const double estimated = robust_scale(store, selection);
   const double change = loss_ == Loss::none ? 1.0 : std::abs(estimated / scale_ - 1.0);
   if (loss_ == config_.loss && change <= tuning::kScaleAtRest) return false;
