@@ -52,7 +52,7 @@ Failure parse_coordinate(const CsvRow& row, std::size_t cell, double mm_per_unit
 }
 
 /// Reads one line of numbers.
-Failure parse_point(const CsvRow& row, double mm_per_unit, ProbePoint& point) {
+Failure parse_point(const CsvRow& row, double mm_per_unit, Directions directions, ProbePoint& point) {
   for (std::size_t cell = 0; cell < row.cells.size(); ++cell) {
     const std::size_t column = row.columns[cell];
     Failure failure = column == kPathColumn     ? parse_path(row.place, row.cells[cell], point)
@@ -61,7 +61,11 @@ Failure parse_point(const CsvRow& row, double mm_per_unit, ProbePoint& point) {
     if (failure) return failure;
   }
   const double length = length_of(point.approach);
-  if (normalise_direction(point.approach)) return {};
+  std::array<double, 3> unit_vector = point.approach;
+  if (normalise_direction(unit_vector)) {
+    if (directions == Directions::normalised) point.approach = unit_vector;
+    return {};
+  }
   return bad_input(row.place.say(fmt::format(
       "columns i,j,k: the direction has the length {:.6g}; make it a unit vector, or 0,0,0 where it is unknown",
       length)));
@@ -75,7 +79,7 @@ PointsFile failed(Failure failure) {
 
 }  // namespace
 
-PointsFile parse_points_csv(std::string_view text, std::string_view name, double mm_per_unit) {
+PointsFile parse_points_csv(std::string_view text, std::string_view name, double mm_per_unit, Directions directions) {
   PointsFile file;
   const auto take = [&](const CsvRow& row) -> Failure {
     if (file.points.size() == std::numeric_limits<std::uint32_t>::max()) {
@@ -83,7 +87,7 @@ PointsFile parse_points_csv(std::string_view text, std::string_view name, double
     }
     ProbePoint point;
     point.sequence = static_cast<std::uint32_t>(file.points.size() + 1);
-    if (Failure failure = parse_point(row, mm_per_unit, point)) return failure;
+    if (Failure failure = parse_point(row, mm_per_unit, directions, point)) return failure;
     if (file.points.empty()) {
       for (const std::size_t column : row.columns) {
         file.has_path = file.has_path || column == kPathColumn;
@@ -100,12 +104,12 @@ PointsFile parse_points_csv(std::string_view text, std::string_view name, double
   return file;
 }
 
-PointsFile read_points_csv(const std::string& path, double mm_per_unit) {
+PointsFile read_points_csv(const std::string& path, double mm_per_unit, Directions directions) {
   std::string text;
   if (const Failure failure = read_file(path, kMaxFileSize, text)) {
     return failed(bad_input(fmt::format("{}: {}; give a readable CSV file of points", path, failure.message)));
   }
-  return parse_points_csv(text, path, mm_per_unit);
+  return parse_points_csv(text, path, mm_per_unit, directions);
 }
 
 }  // namespace bladefit

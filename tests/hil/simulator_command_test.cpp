@@ -62,7 +62,7 @@ TEST(SimulatorCommand, RefusesBadPoints) {
 }
 
 TEST(SimulatorCommand, ServesTheWeightedPointsThatLocalizeAccepts) {
-  Scratch scratch;
+  ScratchFolder scratch;
   std::ofstream(scratch / "points.csv") << "x,y,z,path,weight\n1,2,3,4,0.25\n5,6,7,4,1\n";
   SimulatedMachine machine({"--points", scratch / "points.csv", "--transport", "modbus-tcp", "--port", "0"});
   const RawModbus reader = RawModbus::tcp(machine.port());

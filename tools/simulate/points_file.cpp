@@ -6,7 +6,7 @@
 namespace bladefit::simulate {
 
 std::vector<MachinePoint> read_points_file(const std::string& path, double mm_per_unit) {
-  const PointsFile file = read_points_csv(path, mm_per_unit);
+  const PointsFile file = read_points_csv(path, mm_per_unit, Directions::as_written);
   if (file.error) throw ToolError(file.error);
   std::vector<MachinePoint> points;
   points.reserve(file.points.size());

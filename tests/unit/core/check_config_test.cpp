@@ -30,7 +30,7 @@ struct Refused {
   std::function<void(LocalizerConfig&)> change;
 };
 
-class CheckConfig : public testing::TestWithParam<Refused> {};
+class CheckConfig : public ::testing::TestWithParam<Refused> {};
 
 TEST_P(CheckConfig, NamesTheField) {
   LocalizerConfig config = config_with_box();
@@ -50,51 +50,51 @@ using C = LocalizerConfig;
 constexpr Status kRange = Status::out_of_range, kFinite = Status::not_finite;
 
 INSTANTIATE_TEST_SUITE_P(Sizes, CheckConfig,
-                         testing::Values(Refused{"capacity", kRange, [](C& c) { c.capacity = 5; }},
-                                         Refused{"capacity", kRange, [](C& c) { c.capacity = 16777217; }},
-                                         Refused{"refresh_per_push", kRange, [](C& c) { c.refresh_per_push = 1; }},
-                                         Refused{"refresh_per_push", kRange, [](C& c) { c.refresh_per_push = 65; }},
-                                         Refused{"tolerance.box_count", kRange,
-                                                 [](C& c) { c.tolerance.box_count = 33; }},
-                                         Refused{"locked", kRange, [](C& c) { c.locked = 63; }},
-                                         Refused{"further_starts", kRange, [](C& c) { c.further_starts = 13; }}));
+                         ::testing::Values(Refused{"capacity", kRange, [](C& c) { c.capacity = 5; }},
+                                           Refused{"capacity", kRange, [](C& c) { c.capacity = 16777217; }},
+                                           Refused{"refresh_per_push", kRange, [](C& c) { c.refresh_per_push = 1; }},
+                                           Refused{"refresh_per_push", kRange, [](C& c) { c.refresh_per_push = 65; }},
+                                           Refused{"tolerance.box_count", kRange,
+                                                   [](C& c) { c.tolerance.box_count = 33; }},
+                                           Refused{"locked", kRange, [](C& c) { c.locked = 63; }},
+                                           Refused{"further_starts", kRange, [](C& c) { c.further_starts = 13; }}));
 
 INSTANTIATE_TEST_SUITE_P(
     Numbers, CheckConfig,
-    testing::Values(Refused{"probe_radius_mm", kFinite, [](C& c) { c.probe_radius_mm = kInfinity; }},
-                    Refused{"probe_radius_mm", kRange, [](C& c) { c.probe_radius_mm = -1; }},
-                    Refused{"noise_floor_mm", kRange, [](C& c) { c.noise_floor_mm = 0; }},
-                    Refused{"determined_mm", kFinite, [](C& c) { c.determined_mm = kInfinity; }},
-                    Refused{"determined_mm", kRange, [](C& c) { c.determined_mm = -1; }},
-                    Refused{"loss_scale_mm", kRange, [](C& c) { c.loss_scale_mm = -1; }},
-                    Refused{"window_low", kRange, [](C& c) { c.window_low = -0.1; }},
-                    Refused{"window_low", kRange, [](C& c) { c.window_low = c.window_high; }},
-                    Refused{"window_high", kRange, [](C& c) { c.window_high = 1.1; }},
-                    Refused{"start.translation", kFinite, [](C& c) { c.start.translation[1] = kNan; }},
-                    Refused{"start.rotation", kFinite, [](C& c) { c.start.rotation(2, 1) = kNan; }},
-                    Refused{"start.rotation", kRange, [](C& c) { c.start.rotation *= 1.1; }},
-                    Refused{"start.rotation", kRange, [](C& c) { c.start.rotation.col(0) *= -1; }}));
+    ::testing::Values(Refused{"probe_radius_mm", kFinite, [](C& c) { c.probe_radius_mm = kInfinity; }},
+                      Refused{"probe_radius_mm", kRange, [](C& c) { c.probe_radius_mm = -1; }},
+                      Refused{"noise_floor_mm", kRange, [](C& c) { c.noise_floor_mm = 0; }},
+                      Refused{"determined_mm", kFinite, [](C& c) { c.determined_mm = kInfinity; }},
+                      Refused{"determined_mm", kRange, [](C& c) { c.determined_mm = -1; }},
+                      Refused{"loss_scale_mm", kRange, [](C& c) { c.loss_scale_mm = -1; }},
+                      Refused{"window_low", kRange, [](C& c) { c.window_low = -0.1; }},
+                      Refused{"window_low", kRange, [](C& c) { c.window_low = c.window_high; }},
+                      Refused{"window_high", kRange, [](C& c) { c.window_high = 1.1; }},
+                      Refused{"start.translation", kFinite, [](C& c) { c.start.translation[1] = kNan; }},
+                      Refused{"start.rotation", kFinite, [](C& c) { c.start.rotation(2, 1) = kNan; }},
+                      Refused{"start.rotation", kRange, [](C& c) { c.start.rotation *= 1.1; }},
+                      Refused{"start.rotation", kRange, [](C& c) { c.start.rotation.col(0) *= -1; }}));
 
 INSTANTIATE_TEST_SUITE_P(
     Tolerances, CheckConfig,
-    testing::Values(Refused{"tolerance.leading_edge_mm", kFinite, [](C& c) { c.tolerance.leading_edge_mm = kNan; }},
-                    Refused{"tolerance.leading_edge_mm", kRange, [](C& c) { c.tolerance.leading_edge_mm = 0; }},
-                    Refused{"tolerance.rest_mm", kRange, [](C& c) { c.tolerance.rest_mm = -1; }},
-                    Refused{"tolerance.transition", kRange, [](C& c) { c.tolerance.transition = -1; }},
-                    Refused{"tolerance.boxes.patch", kRange, [](C& c) { c.tolerance.boxes[0].patch = 2; }},
-                    Refused{"tolerance.boxes.u_min", kRange, [](C& c) { c.tolerance.boxes[0].u_min = 0.7; }},
-                    Refused{"tolerance.boxes.v_min", kRange, [](C& c) { c.tolerance.boxes[0].v_max = -1; }},
-                    Refused{"tolerance.boxes.v_max", kFinite, [](C& c) { c.tolerance.boxes[0].v_max = kInfinity; }}));
+    ::testing::Values(Refused{"tolerance.leading_edge_mm", kFinite, [](C& c) { c.tolerance.leading_edge_mm = kNan; }},
+                      Refused{"tolerance.leading_edge_mm", kRange, [](C& c) { c.tolerance.leading_edge_mm = 0; }},
+                      Refused{"tolerance.rest_mm", kRange, [](C& c) { c.tolerance.rest_mm = -1; }},
+                      Refused{"tolerance.transition", kRange, [](C& c) { c.tolerance.transition = -1; }},
+                      Refused{"tolerance.boxes.patch", kRange, [](C& c) { c.tolerance.boxes[0].patch = 2; }},
+                      Refused{"tolerance.boxes.u_min", kRange, [](C& c) { c.tolerance.boxes[0].u_min = 0.7; }},
+                      Refused{"tolerance.boxes.v_min", kRange, [](C& c) { c.tolerance.boxes[0].v_max = -1; }},
+                      Refused{"tolerance.boxes.v_max", kFinite, [](C& c) { c.tolerance.boxes[0].v_max = kInfinity; }}));
 
 INSTANTIATE_TEST_SUITE_P(Modes, CheckConfig,
-                         testing::Values(Refused{"ratio", kRange, [](C& c) { c.ratio = 0.99; }},
-                                         Refused{"ratio", kFinite, [](C& c) { c.ratio = kNan; }},
-                                         Refused{"tolerance.rest_mm", kRange,
-                                                 [](C& c) { c.mode = FitMode::constrained; }},
-                                         Refused{"loss", kRange, [](C& c) {
-                                                   c.mode = FitMode::minimax;
-                                                   c.loss = Loss::huber;
-                                                 }}));
+                         ::testing::Values(Refused{"ratio", kRange, [](C& c) { c.ratio = 0.99; }},
+                                           Refused{"ratio", kFinite, [](C& c) { c.ratio = kNan; }},
+                                           Refused{"tolerance.rest_mm", kRange,
+                                                   [](C& c) { c.mode = FitMode::constrained; }},
+                                           Refused{"loss", kRange, [](C& c) {
+                                                     c.mode = FitMode::minimax;
+                                                     c.loss = Loss::huber;
+                                                   }}));
 
 TEST(CheckConfigDesign, BoxesBeyondThoseInUseAreNotLookedAt) {
   LocalizerConfig config = config_with_box();

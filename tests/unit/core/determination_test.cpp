@@ -1,6 +1,7 @@
 // What the points determine while they come in: a bad pose is not taken for noise, and none is kept for good.
 #include <gtest/gtest.h>
 
+#include "core/fit/pose_solver.hpp"
 #include "tests/support/localizer_session.hpp"
 
 namespace bladefit::testing {

@@ -50,6 +50,13 @@ class Traffic {
     p.sums.take_in(p.store, index, p.estimate);
   }
 
+  /// What a push does with a point that was measured again.
+  [[nodiscard]] auto review() {
+    return [this](std::uint32_t index, const Measurement& m) {
+      parts_->store.record(parts_->store[index], m, parts_->estimate.revision());
+    };
+  }
+
   void settle() { parts_->sums.settle(parts_->store, parts_->estimate); }
   bool refresh(std::uint32_t budget) { return parts_->sums.refresh(parts_->store, parts_->estimate, budget, review()); }
   void gather(std::uint32_t newest_sequence) {
@@ -93,12 +100,6 @@ class Traffic {
   [[nodiscard]] OwnedParts& parts() { return parts_; }
 
  private:
-  [[nodiscard]] auto review() {
-    return [this](std::uint32_t index, const Measurement& m) {
-      parts_->store.record(parts_->store[index], m, parts_->estimate.revision());
-    };
-  }
-
   std::mt19937_64 random_;
   OwnedParts parts_;
   std::vector<ProbePoint> probes_;

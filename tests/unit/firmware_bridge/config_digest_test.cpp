@@ -11,7 +11,7 @@
 
 #include "core/localizer/config_fields.hpp"
 #include "firmware_bridge/host/journal/config_digest.hpp"
-#include "firmware_bridge/host/journal/journal.hpp"
+#include "firmware_bridge/host/journal/journal_reader.hpp"
 
 namespace bladefit {
 namespace {

@@ -3,6 +3,7 @@
 #include "tools/batch/fit_options.hpp"
 
 #include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
 
 #include <string>
 
