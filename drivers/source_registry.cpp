@@ -55,7 +55,7 @@ SourceSettings modbus_over() {
 Failure apply_tcp(std::string_view place, SourceSettings& settings) {
   auto& modbus = std::get<ModbusSettings>(settings);
   modbus.transport = ModbusTransport::tcp;
-  return parse_tcp_place(place, modbus.tcp);
+  return parse_tcp_place(place, "modbus-tcp", modbus.tcp);
 }
 
 Failure apply_rtu(std::string_view place, SourceSettings& settings) {

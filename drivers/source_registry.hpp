@@ -36,10 +36,10 @@ struct SourceProtocol {
 /// The protocol that owns these settings; null where nobody has said which.
 [[nodiscard]] const SourceProtocol* protocol_of(const SourceSettings& settings);
 
-/// Every word: "modbus-tcp, modbus-rtu, serial, dro or replay".
+/// Every word, as in "modbus-tcp, serial or replay".
 [[nodiscard]] std::string source_words();
 
-/// The form of every URI: "modbus-tcp://HOST:PORT, modbus-rtu:DEVICE, serial:DEVICE or replay:FILE.csv".
+/// The form of every URI, as in "modbus-tcp://HOST:PORT, serial:DEVICE or replay:FILE.csv".
 [[nodiscard]] std::string source_uri_forms();
 
 }  // namespace bladefit

@@ -20,7 +20,7 @@ Mat3 rotation_from(const double (&rows)[9]) {
 /// What the core's narrower types cannot hold, which check_config() therefore cannot see.
 bool numbers_fit(const bladefit_config& config) {
   return config.use_approach <= 1 && config.edges <= BLADEFIT_EDGES_USE && config.box_count <= BLADEFIT_MAX_BOXES &&
-         config.mode <= BLADEFIT_CONSTRAINED && config.regions <= BLADEFIT_REGIONS_FIXED && config.locked <= kLockAll &&
+         config.mode < kFitModeWords.size() && config.regions <= BLADEFIT_REGIONS_FIXED && config.locked <= kLockAll &&
          config.loss <= BLADEFIT_LOSS_TUKEY;
 }
 

@@ -29,18 +29,12 @@ bool BoundTracker::holds(std::uint32_t point) const {
 bool BoundTracker::violated(double d, double w) const {
   if (!stepped_) return count_ < kPlaces;
   const double margin = kBeyondReach * reach_;
-  switch (fit_.mode()) {
-    case FitMode::range:
-      return d > most_ + kBeyond * value_ + margin || d < least_ - kBeyond * value_ - margin;
-    case FitMode::minimax:
-      return std::abs(d) > value_ * (1.0 + kBeyond) + margin;
-    case FitMode::constrained:
-      return std::abs(d) > w * (1.0 + kBeyond) + margin;
-    case FitMode::min_tolerance:
-    case FitMode::least_squares:
-      break;
+  const FitMode mode = fit_.mode();
+  if (mode == FitMode::range) {
+    return d > most_ + kBeyond * value_ + margin || d < least_ - kBeyond * value_ - margin;
   }
-  return std::abs(d) > w * value_ * (1.0 + kBeyond) + margin;
+  const double bound = mode == FitMode::minimax ? value_ : mode == FitMode::constrained ? w : w * value_;
+  return std::abs(d) > bound * (1.0 + kBeyond) + margin;
 }
 
 /// The place with the most slack that the solution does not rest on.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -20,8 +21,10 @@ struct ReportOptions {
 };
 
 std::string report_help() {
+  std::size_t width = 0;
+  for (const ReportFormat& format : kFormats) width = std::max(width, format.name.size());
   std::string text = "\nFormats:\n";
-  for (const ReportFormat& format : kFormats) text += fmt::format("  {:<4}  {}\n", format.name, format.help);
+  for (const ReportFormat& format : kFormats) text += fmt::format("  {:<{}}  {}\n", format.name, width, format.help);
   return text + R"(
 Example:
   bladefit report session --format html -o blade.html
