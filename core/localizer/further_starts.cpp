@@ -40,7 +40,8 @@ void FurtherStarts::begin(double own_value, const Pose& own_pose, std::uint32_t 
   points_ = points;
   stride_ = 1 + (points - 1) / tuning::kStartPoints;
   const bool compared = stride_ == 1 || own_value == kInfinity;
-  best_.value = compared ? own_value : kInfinity;
+  best_.value = kInfinity;
+  if (compared) best_.value = own_value;
   own_.found = best_.value;
   start_.number = compared ? 1 : 0;
   for (std::uint32_t i = 0; i < points; ++i) program.skip_row(i);

@@ -30,9 +30,10 @@ tcflag_t parity_flags(Parity parity) {
 Failure configure(int descriptor, const SerialLineSettings& settings) {
   const std::optional<speed_t> speed = speed_code(settings.baud);
   termios line{};
-  if (!speed)
+  if (!speed) {
     return device_failure(
         fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings.baud));
+  }
   if (::tcgetattr(descriptor, &line) != 0) return device_failure(port_error_text(errno));
   ::cfmakeraw(&line);
   line.c_cflag &= ~static_cast<tcflag_t>(CSIZE | CSTOPB | PARENB | PARODD | CRTSCTS);

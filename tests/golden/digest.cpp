@@ -71,8 +71,8 @@ void add(Digest& digest, const FitReport& r) {
                                     r.unproven, r.searches, r.revision, r.certificate.count}) {
     digest.add(count);
   }
-  for (const double number : {r.rms_mm, r.sigma_mm, r.loss_scale_mm, r.smallest_eigenvalue, r.gradient,
-                              r.mode_value_mm, r.smallest_tolerance_mm, r.stationarity}) {
+  for (const double number : {r.rms_mm, r.sigma_mm, r.loss_scale_mm, r.smallest_eigenvalue, r.gradient, r.mode_value_mm,
+                              r.smallest_tolerance_mm, r.stationarity}) {
     digest.add(number);
   }
   add(digest, r.leading_edge);

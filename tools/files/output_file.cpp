@@ -79,8 +79,8 @@ void write_output(const std::string& path, std::string_view content, std::string
     OutputFile(path, content).commit();
     return;
   }
-  std::fwrite(content.data(), 1, content.size(), stdout);
-  if (std::fflush(stdout) != 0) {
+  const bool written = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
+  if (!written || std::fflush(stdout) != 0) {
     throw ToolError(fmt::format("standard output: cannot write the {}", what), ToolError::Kind::device);
   }
 }
