@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace bladefit {
@@ -39,6 +40,15 @@ void apply_rest_tolerance(const S& s, double mm, C& c) {
 void apply_window(const S& s, double /*mm*/, C& c) {
   c.window_low = s.window->low;
   c.window_high = s.window->high;
+}
+
+void apply_mpe(const S& s, double /*mm*/, C& c) {
+  constexpr double kMmPerMicrometre = 1e-3;
+  // A largest error is taken for the limit of a rectangular distribution (ISO 14253-2).
+  c.decision.probe_mm = s.mpe->constant_um * kMmPerMicrometre / std::sqrt(3.0);
+  c.decision.probe_per_mm = s.mpe->length_mm_per_um > 0.0
+                                ? kMmPerMicrometre / (s.mpe->length_mm_per_um * std::sqrt(3.0))
+                                : 0.0;
 }
 
 // An option is applied after those above it.
@@ -103,6 +113,27 @@ constexpr std::array kOptions{
     FitOption{"ignore_approach", FlagOption{&S::ignore_approach},
               [](const S& s, double, C& c) { c.use_approach = !*s.ignore_approach; },
               "do not use the probing directions i,j,k, which choose the side of the blade", "false", true},
+    FitOption{"decision", ChoiceOption<DecisionRule>{&S::decision, kDecisionRuleWords},
+              [](const S& s, double, C& c) { c.decision.rule = *s.decision; },
+              "simple (default): a distance is compared with its tolerance as it is; guarded: a point is in or out only "
+              "where the expanded uncertainty leaves no doubt (ISO 14253-1:2017), else undecided; it needs the probe "
+              "uncertainty or the mpe",
+              "\"simple\""},
+    FitOption{"probe_uncertainty", length_above_0(&S::probe_uncertainty),
+              [](const S& s, double mm, C& c) { c.decision.probe_mm = *s.probe_uncertainty * mm; },
+              "standard uncertainty of a distance that comes from the probe, in units", "0.002"},
+    FitOption{"mpe", MpeOption{&S::mpe}, apply_mpe,
+              "A+L/K of the machine's data sheet, for example 1.9+L/300: its largest permissible error is A micrometres "
+              "and L/K, L in mm: here the distance of a point from the middle of the design. The standard uncertainty is "
+              "taken as that error / sqrt(3)",
+              "\"1.9+L/300\""},
+    FitOption{"coverage_factor", NumberOption{&S::coverage_factor, 0, 10, true},
+              [](const S& s, double, C& c) { c.decision.coverage_factor = *s.coverage_factor; },
+              "k of the expanded uncertainty U = k u (default 2: some 95 %)", "2.0"},
+    FitOption{"least_points", NumberOption{&S::least_points, 1, 1e6},
+              [](const S& s, double, C& c) { c.tolerance.least_points = static_cast<std::uint32_t>(*s.least_points); },
+              "judged points that each leading-edge zone needs; with fewer the blade is not decided (default 1)", "1",
+              false},
 };
 
 /// A comment of whole words, at most kWidth columns wide where they allow it.
@@ -166,6 +197,13 @@ Failure set(const LocksOption& option, const std::string& given, FitSettings& se
   std::uint8_t locked = 0;
   if (const Failure error = parse_lock(given, locked)) return error;
   settings.*option.value = locked;
+  return {};
+}
+
+Failure set(const MpeOption& option, const std::string& given, FitSettings& settings) {
+  ProbeError error;
+  if (const Failure failure = parse_mpe(given, error)) return failure;
+  settings.*option.value = error;
   return {};
 }
 

@@ -52,6 +52,12 @@ struct LocksOption {
   std::optional<std::uint8_t> FitSettings::*value;
 };
 
+/// As parse_mpe() reads it.
+struct MpeOption {
+  using Given = std::string;
+  std::optional<ProbeError> FitSettings::*value;
+};
+
 /// A file. In a TOML file a relative path is taken from the folder of that file.
 struct PathOption {
   using Given = std::string;
@@ -66,12 +72,13 @@ struct FlagOption {
 
 using FitOptionKind = std::variant<NumberOption, ChoiceOption<FitMode>, ChoiceOption<OutwardOption>,
                                    ChoiceOption<DesignUnit>, ChoiceOption<RegionPolicy>, ChoiceOption<EdgePolicy>,
-                                   ChoiceOption<Loss>, BoxesOption, WindowOption, LocksOption, PathOption, FlagOption>;
+                                   ChoiceOption<Loss>, ChoiceOption<DecisionRule>, MpeOption, BoxesOption, WindowOption, LocksOption, PathOption, FlagOption>;
 
 [[nodiscard]] Failure set(const NumberOption& option, double given, FitSettings& settings);
 [[nodiscard]] Failure set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings);
 [[nodiscard]] Failure set(const WindowOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const LocksOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] Failure set(const MpeOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const PathOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const FlagOption& option, bool given, FitSettings& settings);
 

@@ -10,6 +10,7 @@
 #include "core/fit/loss.hpp"
 #include "core/fit/point_policy.hpp"
 #include "core/geometry/surface/design_image.hpp"
+#include "core/inspection/decision.hpp"
 #include "drivers/source/failure.hpp"
 
 namespace bladefit {
@@ -35,6 +36,11 @@ struct FitSettings {
   std::optional<double> loss_scale;  ///< standard deviation of good points
   std::optional<std::string> start;  ///< file of point pairs that give the start pose
   std::optional<bool> ignore_approach;
+  std::optional<DecisionRule> decision;
+  std::optional<double> probe_uncertainty;  ///< standard uncertainty of a distance that comes from the probe
+  std::optional<ProbeError> mpe;            ///< largest error of the machine, from its data sheet
+  std::optional<double> coverage_factor;
+  std::optional<double> least_points;  ///< judged points that each leading-edge zone needs; a whole number
 };
 
 /// Reads the table [fit] of a TOML file such as config/fit.toml into `settings`. Relative paths are those of the file's

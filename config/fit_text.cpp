@@ -71,6 +71,27 @@ Failure parse_leading_edge(std::string_view text, ParameterBox& box) {
   return {};
 }
 
+Failure parse_mpe(std::string_view text, ProbeError& error) {
+  const Failure wrong =
+      bad_input(fmt::format("'{}' is no largest permissible error; write A+L/K, for example 1.9+L/300: A in "
+                            "micrometres, L in mm, each above 0",
+                            text));
+  const std::size_t plus = text.find('+');
+  const std::optional<double> constant = parse_finite(trimmed(text.substr(0, plus)));
+  if (!constant || !(*constant > 0)) return wrong;
+  ProbeError read{*constant, 0};
+  if (plus != std::string_view::npos) {
+    const std::string_view growing = trimmed(text.substr(plus + 1));
+    const std::size_t slash = growing.find('/');
+    if (slash == std::string_view::npos || trimmed(growing.substr(0, slash)) != "L") return wrong;
+    const std::optional<double> divisor = parse_finite(trimmed(growing.substr(slash + 1)));
+    if (!divisor || !(*divisor > 0)) return wrong;
+    read.length_mm_per_um = *divisor;
+  }
+  error = read;
+  return {};
+}
+
 Failure parse_window(std::string_view text, ParameterWindow& window) {
   if (parse_interval(text, window.low, window.high)) return {};
   return bad_input(fmt::format("'{}' is no window; write 0.05:0.95, limits from 0 to 1, the lower first", text));

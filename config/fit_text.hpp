@@ -13,6 +13,15 @@ struct ParameterWindow {
   double low = 0, high = 1;
 };
 
+/// Largest permissible error of a machine, A + L/K in micrometres with L in mm.
+struct ProbeError {
+  double constant_um = 0;       ///< A
+  double length_mm_per_um = 0;  ///< K; 0: no part that grows with the length
+};
+
+/// `A+L/K` as data sheets write it, or A alone. Error: a line that names the text and the fix.
+[[nodiscard]] Failure parse_mpe(std::string_view text, ProbeError& error);
+
 /// A leading-edge box as on the command line: `[PATCH:]u:0.4:0.6` or `[PATCH:]v:0.4:0.6`. Without PATCH it is patch 0;
 /// the other parameter runs from 0 to 1. Error: a line that names the text and the fix.
 [[nodiscard]] Failure parse_leading_edge(std::string_view text, ParameterBox& box);

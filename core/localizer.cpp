@@ -27,7 +27,8 @@ Object* placed(std::byte*& place, std::size_t count) {
 }
 
 Evidence evidence_of(const LocalizerParts& p) {
-  return {p.estimate, p.sums.model().count >= tuning::kLeastJudged || p.stream.concluded};
+  const std::uint32_t spare = 6 - p.estimate.determination().locked + tuning::kLeastSpare;
+  return {p.estimate, p.sums.model().count >= (p.stream.concluded ? spare : tuning::kLeastJudged)};
 }
 
 Status check(const LocalizerParts& p, const ProbePoint& point) {

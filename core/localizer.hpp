@@ -9,6 +9,7 @@
 #include "core/fit/point_policy.hpp"
 #include "core/fit/pose.hpp"
 #include "core/geometry/surface/surface.hpp"
+#include "core/inspection/decision.hpp"
 #include "core/inspection/tolerance_map.hpp"
 #include "core/inspection/verdict.hpp"
 #include "core/probe_point.hpp"
@@ -32,6 +33,7 @@ struct LocalizerConfig {
   double window_low = 0;   ///< points whose foot at the start pose has u or v below this are rejected
   double window_high = 1;  ///< or above this (thesis 7: 0.05 and 0.95)
   ToleranceMap tolerance;
+  Decision decision;
   /// While points come in, the pose is that of the mode over the points looked at so far, once all six degrees of
   /// freedom are determined; refine() makes it the optimum over all.
   FitMode mode = FitMode::least_squares;
@@ -63,7 +65,8 @@ struct FitReport {
   Pose pose;
   /// sigma^2 (J'J)^-1 for (w, dt) of C' = exp([w]x) C, t' = t + dt [rad, mm]; zero unless all six are determined
   Mat6 covariance = Mat6::Zero();
-  std::uint32_t determined = 0;  ///< degrees of freedom, 0..6
+  std::uint32_t determined = 0;  ///< degrees of freedom that the points determine, 0..free
+  std::uint32_t free = 6;        ///< degrees of freedom that are not locked
   std::uint32_t points = 0;      ///< accepted so far
   std::uint32_t fitted = 0;      ///< of these, how many count in the fit
   std::uint32_t rejected = 0;

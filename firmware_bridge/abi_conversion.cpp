@@ -21,7 +21,7 @@ Mat3 rotation_from(const double (&rows)[9]) {
 bool numbers_fit(const bladefit_config& config) {
   return config.use_approach <= 1 && config.edges <= BLADEFIT_EDGES_USE && config.box_count <= BLADEFIT_MAX_BOXES &&
          config.mode < kFitModeWords.size() && config.regions <= BLADEFIT_REGIONS_FIXED && config.locked <= kLockAll &&
-         config.loss <= BLADEFIT_LOSS_TUKEY;
+         config.loss <= BLADEFIT_LOSS_TUKEY && config.decision <= BLADEFIT_GUARDED;
 }
 
 ToleranceMap tolerance_from(const bladefit_config& config) {
@@ -71,6 +71,10 @@ bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& t
   to.loss = static_cast<Loss>(from.loss);
   to.loss_scale_mm = from.loss_scale_mm;
   to.ratio = from.ratio == 0 ? 10.0 : from.ratio;
+  to.decision.rule = static_cast<DecisionRule>(from.decision);
+  to.decision.coverage_factor = from.coverage_factor == 0 ? 2.0 : from.coverage_factor;
+  to.decision.probe_mm = from.probe_uncertainty_mm;
+  to.decision.probe_per_mm = from.probe_uncertainty_per_mm;
   return static_cast<bladefit_status>(check_config(to, kAnyPatches).status);
 }
 
@@ -101,6 +105,7 @@ bladefit_verdict translate_verdict(const Verdict& from) {
   to.distance_mm = from.foot.distance;
   to.tolerance_mm = from.tolerance_mm;
   to.uncertainty_mm = from.uncertainty_mm;
+  to.expanded_mm = from.expanded_mm;
   return to;
 }
 

@@ -30,7 +30,7 @@ extern "C" {
 #endif
 
 /* Changes when a struct or the meaning of a call changes. Compare with bladefit_abi_version(). */
-#define BLADEFIT_ABI_VERSION 1u
+#define BLADEFIT_ABI_VERSION 2u
 
 /* Alignment of the memory given to bladefit_init() [bytes]. */
 #define BLADEFIT_MEMORY_ALIGNMENT 64u
@@ -85,7 +85,15 @@ enum {
 };                       /* bladefit_config.locked, added up: keep their value of the start pose */
 enum { BLADEFIT_INTERIOR = 0, BLADEFIT_EDGE = 1, BLADEFIT_CORNER = 2 };                  /* kind */
 enum { BLADEFIT_REST = 0, BLADEFIT_LEADING_EDGE = 1 };                                   /* region */
-enum { BLADEFIT_PENDING = 0, BLADEFIT_IN = 1, BLADEFIT_OUT = 2, BLADEFIT_REJECTED = 3 }; /* state */
+enum {
+  BLADEFIT_PENDING = 0,   /* the fit is not determined well enough to judge the point */
+  BLADEFIT_IN = 1,        /* within its tolerance */
+  BLADEFIT_OUT = 2,       /* beyond it */
+  BLADEFIT_REJECTED = 3,  /* left out of fit and judgement */
+  BLADEFIT_UNDECIDED = 4  /* BLADEFIT_GUARDED: nearer to its tolerance than its expanded uncertainty */
+};                        /* state */
+enum { BLADEFIT_SIMPLE = 0, BLADEFIT_GUARDED = 1 }; /* bladefit_config.decision: distances are compared as they are, or
+                                                       with their expanded uncertainty (ISO 14253-1:2017) */
 enum { BLADEFIT_NO_ACTION = 0, BLADEFIT_CUT = 1, BLADEFIT_WELD = 2 };                    /* action */
 enum {
   BLADEFIT_FIT_UNDERDETERMINED = 0,
@@ -127,6 +135,11 @@ typedef struct bladefit_config {
   uint32_t loss;                          /* BLADEFIT_LOSS_...: robust loss of a least-squares fit */
   double ratio;                           /* >= 1, or 0 for 10; min_tolerance: tolerance of the rest / leading edge */
   double loss_scale_mm;                   /* >= 0; standard deviation of good points; 0 = bladefit_refine() finds it */
+  uint32_t decision;                      /* BLADEFIT_SIMPLE or _GUARDED */
+  uint32_t reserved;                      /* 0 */
+  double coverage_factor;                 /* > 0, or 0 for 2; k of the expanded uncertainty U = k u */
+  double probe_uncertainty_mm;            /* >= 0; standard uncertainty of a distance that comes from the probe, and */
+  double probe_uncertainty_per_mm;        /* >= 0; of it per mm from the middle of the design; one > 0 with _GUARDED */
 } bladefit_config;
 
 /* A config to start from: 65536 points, nothing judged, start pose = identity. */
@@ -134,7 +147,8 @@ typedef struct bladefit_config {
   {                                                                                                                    \
     (uint32_t)sizeof(bladefit_config), 65536u, 8u, 1u, BLADEFIT_EDGES_SKIP, 0u, 0.0, 0.005, 0.0, INFINITY, INFINITY,   \
         0.0, 0.0, 1.0, {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}, {{0.0, 0.0, 0.0, 0.0, 0u, 0u}}, \
-        BLADEFIT_LEAST_SQUARES, BLADEFIT_REGIONS_FOLLOW, 0u, BLADEFIT_LOSS_NONE, 10.0, 0.0                             \
+        BLADEFIT_LEAST_SQUARES, BLADEFIT_REGIONS_FOLLOW, 0u, BLADEFIT_LOSS_NONE, 10.0, 0.0, BLADEFIT_SIMPLE, 0u, 2.0,  \
+        0.0, 0.0                                                                                                       \
   }
 
 /* One touch of the probe, in the machine's coordinates. */
@@ -163,6 +177,7 @@ typedef struct bladefit_verdict {
   double distance_mm;    /* > 0 excess material, < 0 missing material, less the probe radius */
   double tolerance_mm;   /* INFINITY = not judged */
   double uncertainty_mm; /* standard uncertainty of the distance that comes from the pose */
+  double expanded_mm;    /* expanded uncertainty of the distance, the probe's part included where it is given */
 } bladefit_verdict;
 
 typedef struct bladefit_region_report {
@@ -186,7 +201,7 @@ typedef struct bladefit_certificate {
 typedef struct bladefit_fit_report {
   uint32_t struct_size; /* sizeof(bladefit_fit_report), set by the caller */
   uint32_t status;      /* BLADEFIT_FIT_... */
-  uint32_t determined;  /* degrees of freedom, 0..6 */
+  uint32_t determined;  /* degrees of freedom that follow from the points, 0..6 less the locked ones */
   uint32_t points;      /* accepted so far */
   uint32_t fitted;      /* of these, how many count in the fit */
   uint32_t rejected;

@@ -103,7 +103,10 @@ Mat6 pose_covariance(const Mat6& covariance_of_x, const Pose& pose, const Motion
   Mat6 map = Mat6::Identity();
   map.topLeftCorner<3, 3>() /= frame.length;
   map.bottomLeftCorner<3, 3>() = -cross_matrix(arm) / frame.length;
-  return map * covariance_of_x * map.transpose();
+  Mat6 covariance = map * covariance_of_x * map.transpose();
+  // Along locked directions nothing but rounding is left, which may be negative.
+  for (int k = 0; k < 6; ++k) covariance(k, k) = std::max(0.0, covariance(k, k));
+  return covariance;
 }
 
 }  // namespace bladefit

@@ -13,9 +13,17 @@ double outside(const ParameterBox& box, double u, double v) {
 
 }  // namespace
 
+bool contains(const ParameterBox& box, std::uint32_t patch, double u, double v) {
+  return box.patch == patch && outside(box, u, v) == 0.0;
+}
+
+bool sets_tolerance(const ToleranceMap& map) {
+  return std::isfinite(map.rest_mm) || (std::isfinite(map.leading_edge_mm) && map.box_count > 0);
+}
+
 Region region_at(const ToleranceMap& map, std::uint32_t patch, double u, double v) {
   for (std::uint32_t k = 0; k < map.box_count; ++k) {
-    if (map.boxes[k].patch == patch && outside(map.boxes[k], u, v) == 0.0) return Region::leading_edge;
+    if (contains(map.boxes[k], patch, u, v)) return Region::leading_edge;
   }
   return Region::rest;
 }

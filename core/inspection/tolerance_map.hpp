@@ -21,7 +21,14 @@ struct ToleranceMap {
   double leading_edge_mm = std::numeric_limits<double>::infinity();  ///< |d| allowed inside; infinity = not judged
   double rest_mm = std::numeric_limits<double>::infinity();          ///< |d| allowed on the rest
   double transition = 0;  ///< width, in parameter units, over which the tolerance rises linearly outside a box
+  std::uint32_t least_points = 1;  ///< judged points that every box needs, or the blade is not decided
 };
+
+/// Whether (u, v) of `patch` lies in the box.
+[[nodiscard]] bool contains(const ParameterBox& box, std::uint32_t patch, double u, double v);
+
+/// Whether any distance is judged.
+[[nodiscard]] bool sets_tolerance(const ToleranceMap& map);
 
 /// Region of a foot at (u, v) of `patch`. Cost: linear in box_count.
 [[nodiscard]] Region region_at(const ToleranceMap& map, std::uint32_t patch, double u, double v);

@@ -6,7 +6,13 @@
 
 namespace bladefit {
 
-enum class PointState : std::uint8_t { pending = 0, in = 1, out = 2, rejected = 3 };
+enum class PointState : std::uint8_t {
+  pending = 0,   ///< the fit is not determined well enough to judge it
+  in = 1,        ///< within its tolerance
+  out = 2,       ///< beyond it
+  rejected = 3,  ///< left out of fit and judgement
+  undecided = 4  ///< guarded: nearer to its tolerance than its uncertainty
+};
 enum class Action : std::uint8_t { none = 0, cut = 1, weld = 2 };
 
 /// What is known of one point at one revision of the fit.
@@ -16,9 +22,13 @@ struct Verdict {
   Region region = Region::rest;
   double tolerance_mm = 0;    ///< |distance| allowed at the foot; infinity where none was set
   double uncertainty_mm = 0;  ///< standard uncertainty of the distance that comes from the pose
+  double expanded_mm = 0;     ///< expanded uncertainty of the distance, that of the probe included where it is known
   PointState state = PointState::pending;
   Action action = Action::none;  ///< cut or weld where the state is out
   std::uint32_t revision = 0;    ///< fit revision it was judged at
 };
+
+/// False for a record that the localizer could not use, such as one with a number that is not finite.
+[[nodiscard]] inline bool has_foot(const Verdict& verdict) { return !verdict.foot.normal.isZero(); }
 
 }  // namespace bladefit

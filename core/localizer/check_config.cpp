@@ -68,6 +68,16 @@ ConfigFault check_lengths(const LocalizerConfig& c) {
   return kNone;
 }
 
+ConfigFault check_decision(const Decision& decision) {
+  if (!(decision.coverage_factor > 0.0)) return out_of_range("decision.coverage_factor", "must be above 0");
+  if (decision.probe_mm < 0.0) return out_of_range("decision.probe_mm", "must be 0 or more");
+  if (decision.probe_per_mm < 0.0) return out_of_range("decision.probe_per_mm", "must be 0 or more");
+  const bool known = decision.probe_mm > 0.0 || decision.probe_per_mm > 0.0;
+  if (decision.rule == DecisionRule::guarded && !known)
+    return out_of_range("decision.rule", "must be simple where the uncertainty of the probe is not known");
+  return kNone;
+}
+
 ConfigFault check_modes(const LocalizerConfig& c) {
   if (!(c.ratio >= 1.0)) return out_of_range("ratio", "must be at least 1");
   if (c.mode == FitMode::constrained && !std::isfinite(c.tolerance.rest_mm))
@@ -90,6 +100,7 @@ ConfigFault check_config(const LocalizerConfig& config, std::size_t patches) {
   if (const ConfigFault fault = check_finite(config)) return fault;
   if (const ConfigFault fault = check_lengths(config)) return fault;
   if (const ConfigFault fault = check_tolerance(config.tolerance, patches)) return fault;
+  if (const ConfigFault fault = check_decision(config.decision)) return fault;
   if (const ConfigFault fault = check_modes(config)) return fault;
   return check_start(config.start);
 }

@@ -13,8 +13,8 @@ namespace bladefit {
 template <class Config, class Visit>
 void for_each_field(Config& config, Visit&& visit) {
   auto& [capacity, refresh_per_push, probe_radius_mm, use_approach, edges, noise_floor_mm, determined_mm, start,
-         window_low, window_high, tolerance, mode, ratio, regions, locked, loss, loss_scale_mm, further_starts] =
-      config;
+         window_low, window_high, tolerance, decision, mode, ratio, regions, locked, loss, loss_scale_mm,
+         further_starts] = config;
   visit("capacity", capacity);
   visit("refresh_per_push", refresh_per_push);
   visit("probe_radius_mm", probe_radius_mm);
@@ -27,7 +27,7 @@ void for_each_field(Config& config, Visit&& visit) {
   for (auto& entry : translation.reshaped()) visit("start.translation", entry);
   visit("window_low", window_low);
   visit("window_high", window_high);
-  auto& [boxes, box_count, leading_edge_mm, rest_mm, transition] = tolerance;
+  auto& [boxes, box_count, leading_edge_mm, rest_mm, transition, least_points] = tolerance;
   visit("tolerance.box_count", box_count);
   const std::uint32_t boxes_in_use = std::min(box_count, std::uint32_t{ToleranceMap::kMaxBoxes});
   for (std::uint32_t k = 0; k < boxes_in_use; ++k) {
@@ -41,6 +41,12 @@ void for_each_field(Config& config, Visit&& visit) {
   visit("tolerance.leading_edge_mm", leading_edge_mm);
   visit("tolerance.rest_mm", rest_mm);
   visit("tolerance.transition", transition);
+  visit("tolerance.least_points", least_points);
+  auto& [rule, coverage_factor, probe_mm, probe_per_mm] = decision;
+  visit("decision.rule", rule);
+  visit("decision.coverage_factor", coverage_factor);
+  visit("decision.probe_mm", probe_mm);
+  visit("decision.probe_per_mm", probe_per_mm);
   visit("mode", mode);
   visit("ratio", ratio);
   visit("regions", regions);

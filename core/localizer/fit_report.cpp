@@ -19,13 +19,14 @@ void report_estimate(const LocalizerParts& p, FitReport& report) {
   const PoseEstimate& estimate = p.estimate;
   const QuadraticModel& model = p.sums.model();
   report.pose = estimate.pose();
-  report.determined = estimate.determination().rank;
+  const std::uint32_t unknowns = 6 - estimate.determination().locked;
+  report.free = unknowns;
+  report.determined = estimate.determination().rank - estimate.determination().locked;
   report.smallest_eigenvalue = estimate.determination().smallest;
   report.gradient = estimate.last_step();
   report.revision = estimate.revision();
   report.fitted = model.count;
   const double square = 2.0 * model.value_at(motion_between(model.reference, estimate.pose(), p.problem.frame));
-  const std::uint32_t unknowns = 6 - estimate.determination().locked;
   const bool robust = p.loss.robust();
   if (model.weight > 0.0) report.rms_mm = std::sqrt(square / model.weight);
   if (robust) report.loss_scale_mm = p.loss.scale();

@@ -15,7 +15,7 @@ struct StoredPoint {
   Foot foot;                      ///< at the pose it was last projected at
   std::uint32_t span = 0;         ///< of the foot
   std::uint32_t sequence = 0, revision = 0;
-  double tolerance = 0, uncertainty = 0;
+  double tolerance = 0, uncertainty = 0, expanded = 0;
   Region region = Region::rest;
   PointState state = PointState::pending, reported_state = PointState::pending;  ///< reported: what the caller knows
   Action action = Action::none, reported_action = Action::none;

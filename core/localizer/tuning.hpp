@@ -43,8 +43,9 @@ inline constexpr std::uint32_t kCatchUp = 8;
 inline constexpr double kTouchingBound = 1e-11;
 /// A verdict is pending while what is not determined may change the distance by more than this share of the tolerance.
 inline constexpr double kPendingShare = 0.1;
-/// Fewer fitted points than this hide their own errors: every verdict is pending.
-inline constexpr std::uint32_t kLeastJudged = 12;
+/// While points come, fewer fitted ones than this hide their own errors: every verdict is pending. Once no more come, so
+/// many more than there are free degrees of freedom are needed.
+inline constexpr std::uint32_t kLeastJudged = 12, kLeastSpare = 3;
 
 // Scale of a robust loss
 /// Standard deviation of normal errors over the median of their size.

@@ -36,6 +36,8 @@ void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   }
   const PoseEstimate::DistanceUncertainty uncertainty = evidence.estimate.uncertainty_of(point.position, foot);
   point.uncertainty = uncertainty.standard;
+  const double length = (apply(evidence.estimate.pose(), point.position) - problem_.frame.pivot).norm();
+  point.expanded = problem_.config.decision.expanded(uncertainty.standard, length);
   const double pending_above =
       tuning::kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : problem_.config.determined_mm);
   point.action = Action::none;
@@ -43,12 +45,11 @@ void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
     point.state = PointState::rejected;
   } else if (uncertainty.undetermined > pending_above || !evidence.enough) {
     point.state = PointState::pending;
-  } else if (std::abs(foot.distance) > point.tolerance + tuning::kTouchingBound * problem_.frame.length) {
-    point.state = PointState::out;
-    point.action = foot.distance > 0.0 ? Action::cut : Action::weld;
   } else {
-    point.state = PointState::in;
+    point.state = decide(problem_.config.decision.rule, {foot.distance, point.tolerance, point.uncertainty,
+                                                         point.expanded, tuning::kTouchingBound * problem_.frame.length});
   }
+  if (point.state == PointState::out) point.action = foot.distance > 0.0 ? Action::cut : Action::weld;
   count(point, +1);
 }
 
@@ -89,6 +90,7 @@ Verdict verdict_of(const StoredPoint& point) {
   verdict.region = point.region;
   verdict.tolerance_mm = point.tolerance;
   verdict.uncertainty_mm = point.uncertainty;
+  verdict.expanded_mm = point.expanded;
   verdict.state = point.state;
   verdict.action = point.action;
   verdict.revision = point.revision;

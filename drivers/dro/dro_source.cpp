@@ -87,12 +87,12 @@ void DroSource::take_line() {
   if (perhaps_cut) {
     note_fault(status_, text);
   } else {
-    note_loss(status_, text);
+    note_unnumbered_loss(status_, text);
   }
 }
 
 void DroSource::link_lost() {
-  note_loss(status_, "points probed while the port is down are lost; probe them again once the link is up");
+  note_unnumbered_loss(status_, "points probed while the port is down are lost; probe them again once the link is up");
   port_.lost("the port has hung up; check the cable", status_);
 }
 

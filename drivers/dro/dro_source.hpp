@@ -15,6 +15,7 @@ class DroSource final : public ProbeSource {
   DroSource(const DroSettings& settings, std::string name);
 
   [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t run_id) override;
+  [[nodiscard]] bool tells_end() const override { return false; }
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
   void acknowledge(std::uint32_t) override {}
   void close() override { port_->close(); }

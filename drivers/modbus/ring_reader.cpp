@@ -40,6 +40,7 @@ void RingReader::observe(const CmmHeader& header) {
   note_losses(header);
   take_back_overshoot(header);
   note_finish(header);
+  status_.last = next_ - 1;
 }
 
 /// Records were given up because headers named newer ones, which later headers know nothing of: the former were wrong.
@@ -86,7 +87,7 @@ void RingReader::note_overflow(bool reported) {
   overflow_changes_seen_ = 0;
   overflow_ = reported;
   if (!reported) return;
-  note_loss(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
+  note_unnumbered_loss(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
 }
 
 void RingReader::note_finish(const CmmHeader& header) {

@@ -42,6 +42,7 @@ Failure ReplaySource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
   status_.link = LinkState::up;
   status_.run_id = digest(points_);
   status_.finished = next_ == points_.size();
+  status_.last = static_cast<std::uint32_t>(next_);
   return {};
 }
 
@@ -54,6 +55,7 @@ std::size_t ReplaySource::poll(std::span<ProbePoint> points, std::chrono::millis
   }
   next_ += count;
   status_.records += count;
+  status_.last = static_cast<std::uint32_t>(next_);
   status_.finished = next_ == points_.size();
   return count;
 }

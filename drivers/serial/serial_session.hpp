@@ -67,6 +67,9 @@ class SerialSession {
   /// Records are missing ahead of others that came, or ahead of the end that the device gave.
   [[nodiscard]] bool behind() const { return records_.behind(); }
 
+  /// Sequence of the newest record that was delivered or given up.
+  [[nodiscard]] std::uint32_t last() const { return records_.next() - 1; }
+
   /// The device said that the program is finished, and every record was handed out.
   [[nodiscard]] bool finished() const { return records_.complete() && records_.points().empty(); }
 

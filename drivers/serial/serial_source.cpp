@@ -45,6 +45,7 @@ std::size_t SerialSource::poll(std::span<ProbePoint> points, std::chrono::millis
   const std::size_t count =
       session_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
   status_.finished = session_.finished();
+  status_.last = session_.last();
   status_.behind = session_.behind();
   return count;
 }

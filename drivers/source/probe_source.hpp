@@ -14,7 +14,8 @@ enum class LinkState : std::uint8_t { connecting, up, lost };
 /// Published state of a source, for the panel and the log.
 struct SourceStatus {
   LinkState link = LinkState::connecting;
-  bool finished = false;      ///< the device said that the program is finished, and every record was delivered
+  bool finished = false;  ///< the device said that the program is finished, and every record was delivered or given up
+  std::uint32_t last = 0;  ///< sequence of the newest record that was delivered or given up
   bool device_fault = false;  ///< the device says that it has a fault
   bool behind = false;        ///< records are known to be there that have not been delivered yet
   std::uint32_t run_id = 0;  ///< of the device; another value means that numbering has restarted; without runs always 0
@@ -26,6 +27,7 @@ struct SourceStatus {
   std::uint32_t consecutive_faults = 0;  ///< 0 after any good exchange
   std::string last_fault;                ///< the newest fault in words; empty = none so far
   std::uint64_t losses = 0;              ///< how often records were lost in the device, not to be had again
+  std::uint64_t unnumbered_losses = 0;   ///< how many of these have left no jump in the sequence
   std::string last_loss;                 ///< the newest in words: which records, why, and the fix
 };
 
@@ -41,6 +43,9 @@ class ProbeSource {
   /// `run_id` is the run that the records up to `after` are of (where there are any): a device that is in another one
   /// is left as it is, where the protocol shows the run before it asks for anything; status() says which run it is in.
   [[nodiscard]] virtual Failure open(std::uint32_t after, std::uint32_t run_id) = 0;
+
+  /// Whether the device can say that its program is finished. Where not, the session's own end has to stand for that.
+  [[nodiscard]] virtual bool tells_end() const { return true; }
 
   /// Waits for at most `timeout` and writes the next records to `points`. Returns how many; 0 is no error.
   [[nodiscard]] virtual std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) = 0;

@@ -19,6 +19,12 @@ inline void note_loss(SourceStatus& status, const std::string& text) {
   note_fault(status, text);
 }
 
+/// The same of records that had no number yet.
+inline void note_unnumbered_loss(SourceStatus& status, const std::string& text) {
+  ++status.unnumbered_losses;
+  note_loss(status, text);
+}
+
 /// Which records are lost, in the operator's words.
 inline std::string lost_points(std::uint32_t first, std::uint32_t last, const std::string& why) {
   if (first == last) return "point " + std::to_string(first) + " is lost: " + why + "; probe it again";

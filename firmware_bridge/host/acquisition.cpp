@@ -35,7 +35,7 @@ void Acquisition::replay_recorded() {
   for (const StreamEvent& event : recorded_.events) {
     if (event.kind == EventKind::point) last_sequence_ = event.point.sequence;
     finish_taken_ = event.kind == EventKind::finished;
-    give_to_fit({false, event});
+    give_to_fit({.event = event});
   }
   recorded_.events = {};
   shared_.stored.sequence.store(last_sequence_);
@@ -85,7 +85,7 @@ void Acquisition::take_point(const ProbePoint& point) {
 
 // The fit comes first: its alarm is what the operator waits for.
 void Acquisition::take(const StreamEvent& event) {
-  give_to_fit({false, event});
+  give_to_fit({.event = event});
   while (!shared_.to_journal.ring.push(event) && !shared_.outcome.failed()) std::this_thread::sleep_for(kRoomPause);
   shared_.to_journal.wakeup.signal();
   ++taken_events_;
@@ -106,10 +106,26 @@ void Acquisition::follow_commands() {
 void Acquisition::follow_source() {
   const SourceStatus& status = source_.status();
   announce_changes(status);
+  take_loss(status);
   shared_.link_figures.publish({status.link, status.losses, shared_.requests.pause.load(), status.device_fault});
   if (!status.finished || finish_taken_) return;
   finish_taken_ = true;
-  take({EventKind::finished, {}});
+  StreamEvent finish{EventKind::finished, {}};
+  finish.point.sequence = status.last;
+  take(finish);
+}
+
+/// Records that had a number are missing in the sequence; the stream is told of the others.
+void Acquisition::take_loss(const SourceStatus& status) {
+  if (status.unnumbered_losses == unnumbered_losses_) return;
+  unnumbered_losses_ = status.unnumbered_losses;
+  take({EventKind::lost, {}});
+}
+
+/// Whether the device's program is finished. One that cannot tell is finished when the session is ended.
+bool Acquisition::program_ended(SessionEnd end) const {
+  if (finish_taken_) return true;
+  return !source_.tells_end() && (end == SessionEnd::idle || end == SessionEnd::stopped);
 }
 
 void Acquisition::announce_changes(const SourceStatus& status) {
@@ -178,7 +194,8 @@ void Acquisition::finish(SessionEnd end) {
   }
   shared_.journal_closed.store(true);
   shared_.to_journal.wakeup.signal();
-  give_to_fit({true, {}});
+  give_to_fit({.end = true, .finished = program_ended(end), .event = {}});
+  shared_.outcome.set_program_ended(program_ended(end));
   shared_.outcome.conclude(end);
 }
 

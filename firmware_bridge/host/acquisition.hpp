@@ -39,6 +39,8 @@ class Acquisition {
   [[nodiscard]] bool run_id_has_changed();
   [[nodiscard]] bool link_is_gone();
   [[nodiscard]] SessionEnd end_reached();
+  void take_loss(const SourceStatus& status);
+  [[nodiscard]] bool program_ended(SessionEnd end) const;
   void take(const StreamEvent& event);
   void give_to_fit(const FitInput& input);
   void acknowledge_stored();
@@ -58,6 +60,7 @@ class Acquisition {
   LinkState announced_link_ = LinkState::up;
   bool announced_fault_ = false;
   std::uint64_t announced_losses_ = 0;
+  std::uint64_t unnumbered_losses_ = 0;  ///< that are in the stream
   Clock::time_point last_point_ = Clock::now();
 };
 

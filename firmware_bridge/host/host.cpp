@@ -162,7 +162,9 @@ SessionResult Host::finish() {
                        .report = {},
                        .points = {},
                        .verdicts = {},
-                       .refused = {}};
+                       .refused = {},
+                       .losses = {},
+                       .lost = {}};
   JournalContent recorded;
   const Failure unreadable = read_journal(journal_path(settings_.session_directory), recorded);
   if (unreadable && !result.error) result.error = unreadable;
@@ -173,6 +175,7 @@ SessionResult Host::finish() {
   }
   result.report = running_->localizer->fit();
   add_points(recorded.events, *running_->localizer, running_->publication->tally(), result);
+  if (shared_.outcome.program_ended()) result.losses.finish();
   return result;
 }
 

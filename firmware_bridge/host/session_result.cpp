@@ -1,19 +1,17 @@
 #include "firmware_bridge/host/session_result.hpp"
 
 namespace bladefit {
-namespace {
-
-/// False for a record that the localizer could not use, such as one with a number that is not finite.
-bool has_foot(const Verdict& verdict) { return !verdict.foot.normal.isZero(); }
-
-}  // namespace
 
 void add_points(std::span<const StreamEvent> events, const Localizer& localizer, const Tally& tally,
                 SessionResult& result) {
   for (const StreamEvent& event : events) {
+    const std::optional<SequenceRange> lost = result.losses.take(event);
+    if (lost) result.lost.push_back(*lost);
     if (event.kind == EventKind::reset) {
       result.points.clear();
       result.verdicts.clear();
+      result.refused.clear();
+      result.lost.clear();
     }
     const Verdict* const last = tally.find(event.point.sequence);
     if (event.kind != EventKind::point || last == nullptr) continue;

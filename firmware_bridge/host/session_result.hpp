@@ -5,6 +5,7 @@
 
 #include "core/localizer.hpp"
 #include "drivers/source/failure.hpp"
+#include "firmware_bridge/host/fit/stream_losses.hpp"
 #include "firmware_bridge/host/panel/tally.hpp"
 #include "firmware_bridge/host/threads/session_outcome.hpp"
 #include "firmware_bridge/host/threads/stream_event.hpp"
@@ -19,10 +20,12 @@ struct SessionResult {
   std::vector<ProbePoint> points;      ///< as journalled, rising sequence
   std::vector<Verdict> verdicts;       ///< final ones; verdicts[i] is that of points[i]
   std::vector<std::uint32_t> refused;  ///< journalled records that cannot be used; they are not among `points`
+  StreamLosses losses;
+  std::vector<SequenceRange> lost;  ///< records that never came, rising
 };
 
 /// Puts the points of `events`, what the journal holds, into `result`, each with its final verdict: that of the fit, or
-/// the last one that came out for a point whose place in the fit was given away.
+/// the last one that came out for a point whose place in the fit was given away. So too what was lost.
 void add_points(std::span<const StreamEvent> events, const Localizer& localizer, const Tally& tally,
                 SessionResult& result);
 

@@ -1,27 +1,15 @@
 #include "tools/batch/batch_fit.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/cpu_clock.hpp"
-#include "tools/batch/owned_localizer.hpp"
 #include "tools/batch/result_record.hpp"
-#include "tools/files/tool_error.hpp"
+#include "tools/batch/whole_fit.hpp"
 
 namespace bladefit {
 namespace {
-
-std::vector<Verdict> verdicts_of(const Localizer& localizer, const std::vector<ProbePoint>& points) {
-  std::vector<Verdict> verdicts(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (localizer.verdict_of(points[i].sequence, verdicts[i]) != Status::ok)
-      throw std::logic_error("a staged point is missing");
-  }
-  return verdicts;
-}
 
 bool is_identity(const Pose& pose) {
   return pose.rotation == Mat3(Mat3::Identity()) && pose.translation == Vec3(Vec3::Zero());
@@ -62,13 +50,6 @@ StagedPoints staged(const DesignImage& design, const FitPlan& plan, const std::v
   stage.searches = stage_points(*stage.localizer, Surface(design), plan.localizer, points, starts, name);
   stage.verdicts = verdicts_of(*stage.localizer, points);
   return stage;
-}
-
-void refine_all(Localizer& localizer, std::size_t points) {
-  localizer.conclude();
-  // The refinement has its own cap on sweeps, so this ends.
-  while (localizer.refine(static_cast<std::uint32_t>(points)) == Status::more_work) {
-  }
 }
 
 /// Feet that are not at the same place, to well within what Newton's method leaves.
@@ -116,25 +97,22 @@ BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::v
        .points = points,
        .report = fit.localizer->fit(),
        .verdicts = verdicts_of(*fit.localizer, points),
-       .before = as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points)});
+       .before = as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points),
+       .stream = {}});
   batch.result.name = name;
-  if (const std::uint32_t count = batch.result.all.count; count < 6) {
-    throw ToolError(
-        fmt::format("{}: {} points count in the fit, at least 6 are needed ({} of {} are outside the window or at an "
-                    "edge); probe more points",
-                    name, count, points.size() - count, points.size()));
-  }
   return batch;
 }
 
 Result result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                 const FitReport& report, const std::vector<Verdict>& verdicts, const std::string& name) {
+                 const FitReport& report, const std::vector<Verdict>& verdicts, const StreamEvidence& stream,
+                 const std::string& name) {
   Result result = result_record({.design = design,
                                  .plan = plan,
                                  .points = points,
                                  .report = report,
                                  .verdicts = verdicts,
-                                 .before = distances_as_measured(design, plan.localizer, points)});
+                                 .before = distances_as_measured(design, plan.localizer, points),
+                                 .stream = stream});
   result.name = name;
   return result;
 }

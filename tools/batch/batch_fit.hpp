@@ -4,6 +4,7 @@
 
 #include "core/localizer.hpp"
 #include "tools/batch/fit_options.hpp"
+#include "tools/results/judgement.hpp"
 #include "tools/results/result.hpp"
 
 namespace bladefit {
@@ -25,14 +26,15 @@ struct BatchFit {
 /// The batch fit of `points`: all are projected at the start pose as plan.starts says, then refined until every foot is
 /// proven. First feet that were only tracked are proven afterwards; where one was not the nearest, the fit starts again
 /// from searched ones, so that the optimum does not depend on plan.starts.
-/// Throws ToolError where fewer than six points count or a point cannot be used; `name` names the points there and in
-/// the result.
+/// Throws ToolError where a point cannot be used; `name` names the points there and in the result.
 [[nodiscard]] BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
                                   const std::string& name);
 
-/// The result of a fit that was made elsewhere; verdicts[i] is that of points[i]. Only the distances before the fit are
+/// The result of a fit that was made elsewhere, over a stream of which `stream` tells what is missing; verdicts[i] is
+/// that of points[i]. Only the distances before the fit are
 /// computed here.
 [[nodiscard]] Result result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                               const FitReport& report, const std::vector<Verdict>& verdicts, const std::string& name);
+                               const FitReport& report, const std::vector<Verdict>& verdicts,
+                               const StreamEvidence& stream, const std::string& name);
 
 }  // namespace bladefit

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <type_traits>
 #include <variant>
@@ -39,12 +40,47 @@ void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan&
   plan.mm_per_unit = mm_per_unit(unit);
 }
 
+/// The box lies outside of the window, so that no point of it is used.
+bool beyond_window(const ParameterBox& box, const LocalizerConfig& fit) {
+  return box.u_max < fit.window_low || box.u_min > fit.window_high || box.v_max < fit.window_low ||
+         box.v_min > fit.window_high;
+}
+
+void check_tolerances(const FitSettings& settings, const LocalizerConfig& fit) {
+  const ToleranceMap& map = fit.tolerance;
+  if (settings.tolerance && settings.rest_tolerance && *settings.rest_tolerance < *settings.tolerance) {
+    throw ToolError(fmt::format("--rest-tolerance {:g}: is below --tolerance {:g}; the leading edge is the tighter one: "
+                                "exchange the two, or correct one",
+                                *settings.rest_tolerance, *settings.tolerance));
+  }
+  const bool twice = settings.ratio && settings.rest_tolerance && settings.tolerance;
+  if (twice && fit.mode != FitMode::min_tolerance && *settings.rest_tolerance != *settings.ratio * *settings.tolerance) {
+    throw ToolError(fmt::format("--ratio {:g} and --rest-tolerance {:g}: both give the rest tolerance; leave one out",
+                                *settings.ratio, *settings.rest_tolerance));
+  }
+  for (std::uint32_t k = 0; k < map.box_count; ++k) {
+    if (!beyond_window(map.boxes[k], fit)) continue;
+    throw ToolError(fmt::format("--leading-edge: zone {} lies outside of --window {:g}:{:g}, so that no point can fall in "
+                                "it; widen the window or correct the zone",
+                                k + 1, fit.window_low, fit.window_high));
+  }
+}
+
+void check_decision(const FitSettings& settings) {
+  if (settings.probe_uncertainty && settings.mpe)
+    throw ToolError("--probe-uncertainty and --mpe: both give the uncertainty of the probe; leave one out");
+  if (settings.least_points && *settings.least_points != std::floor(*settings.least_points))
+    throw ToolError(fmt::format("--least-points {:g}: is no whole number", *settings.least_points));
+}
+
 /// What the core lets pass but no user can have meant.
 void check_choices(const FitSettings& settings, const LocalizerConfig& fit) {
   if (fit.mode == FitMode::min_tolerance && fit.tolerance.box_count == 0)
     throw ToolError("--mode min_tolerance: no leading edge is given; add --leading-edge, or use --mode minimax");
   if (fit.loss == Loss::none && settings.loss_scale)
     throw ToolError("--loss-scale: there is no loss; add --loss huber or tukey");
+  check_tolerances(settings, fit);
+  check_decision(settings);
 }
 
 /// A fault of the configuration in the words of the command line.
@@ -63,6 +99,9 @@ std::string explained(const ConfigFault& fault, const LocalizerConfig& fit, std:
     return fmt::format(
         "--rest-tolerance: it is {:g} times --tolerance; min_tolerance needs the wider one on the rest of the blade",
         fit.ratio);
+  }
+  if (field == "decision.rule") {
+    return "--decision guarded: the uncertainty of the probe is not given; add --probe-uncertainty or --mpe";
   }
   if (field == "loss") return fmt::format("--loss {}: only for --mode least_squares; leave it out", word_of(fit.loss));
   return fmt::format("the fit's {} {}; correct the options", field, fault.reason);

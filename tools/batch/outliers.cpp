@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kMedianToScale = 1.4826;
 constexpr double kByChance = 0.05;
+/// A scale below this, in half diagonals of the design, is rounding.
+constexpr double kRounding = 1e-9;
 /// A point with more leverage than this determines its own distance: it cannot be judged.
 constexpr double kMostLeverage = 0.999;
 
@@ -29,11 +31,11 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-Outliers find_outliers(const FitReport& report, const LocalizerConfig& config, const std::vector<Verdict>& verdicts,
+Outliers find_outliers(const FitReport& report, double size_mm, const std::vector<Verdict>& verdicts,
                        const std::vector<ProbePoint>& points) {
   Outliers out;
-  const double sigma = std::max(config.noise_floor_mm, report.sigma_mm);
-  if (config.mode != FitMode::least_squares || report.determined < 6 || !(report.sigma_mm > 0.0)) return out;
+  const double sigma = report.sigma_mm;
+  if (report.determined < report.free || !(sigma > 0.0)) return out;
   std::vector<double> sizes;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     if (verdicts[i].state == PointState::rejected) continue;
@@ -42,7 +44,7 @@ Outliers find_outliers(const FitReport& report, const LocalizerConfig& config, c
   if (sizes.empty()) return out;
   out.scale = kMedianToScale * median(sizes);
   out.limit = normal_quantile(kByChance / static_cast<double>(sizes.size()));
-  if (!(out.scale > 0.0)) return out;
+  if (!(out.scale > kRounding * size_mm)) return out;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const Verdict& v = verdicts[i];
     if (v.state == PointState::rejected) continue;

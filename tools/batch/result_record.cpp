@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tools/batch/outliers.hpp"
+#include "tools/batch/robust_check.hpp"
 #include "tools/results/words.hpp"
 
 namespace bladefit {
@@ -58,7 +58,7 @@ double tip_radius(const DesignImage& design) {
   return largest;
 }
 
-ResultPoint point_of(const ProbePoint& point, const Verdict& verdict) {
+ResultPoint point_of(const ProbePoint& point, const Verdict& verdict, double before) {
   const Foot& foot = verdict.foot;
   return {.sequence = verdict.sequence,
           .position = point.position,
@@ -70,6 +70,8 @@ ResultPoint point_of(const ProbePoint& point, const Verdict& verdict) {
           .distance = foot.distance,
           .tolerance = verdict.tolerance_mm,
           .uncertainty = verdict.uncertainty_mm,
+          .expanded = verdict.expanded_mm,
+          .before = before,
           .state = verdict.state,
           .action = verdict.action,
           .foot = foot.point};
@@ -91,6 +93,7 @@ FitDetails details_of(const FinishedFit& fit) {
           .leading_edge_tolerance = config.tolerance.leading_edge_mm,
           .rest_tolerance = config.tolerance.rest_mm,
           .determined = fit.report.determined,
+          .free = fit.report.free,
           .unproven = fit.report.unproven,
           .stationarity = fit.report.stationarity,
           .tip_radius = tip_radius(fit.design)};
@@ -108,7 +111,7 @@ Result result_record(const FinishedFit& fit) {
   result.mm_per_unit = fit.plan.mm_per_unit;
   result.pose = report.pose;
   // sigma^2 (J'J)^-1 is that of the least-squares pose alone.
-  const bool determined = report.determined >= 6 && report.fitted > 6;
+  const bool determined = report.determined >= report.free && report.fitted > report.free;
   if (config.mode == FitMode::least_squares && determined) result.covariance = report.covariance;
   sum_up(fit, result);
   set_tolerances(fit, result);
@@ -122,10 +125,15 @@ Result result_record(const FinishedFit& fit) {
   if (config.loss != Loss::none) {
     result.loss = LossUsed{std::string(word_of(config.loss)), report.loss_scale_mm};
   }
-  result.outliers = find_outliers(report, config, fit.verdicts, fit.points);
+  RobustCheck robust = check_robustly(fit);
+  result.outliers = std::move(robust.outliers);
+  result.judged_otherwise = std::move(robust.judged_otherwise);
   result.points.reserve(fit.points.size());
-  for (std::size_t i = 0; i < fit.points.size(); ++i) result.points.push_back(point_of(fit.points[i], fit.verdicts[i]));
+  for (std::size_t i = 0; i < fit.points.size(); ++i) {
+    result.points.push_back(point_of(fit.points[i], fit.verdicts[i], fit.before[i]));
+  }
   result.details = details_of(fit);
+  judge(result, config, fit.stream);
   return result;
 }
 

@@ -64,10 +64,9 @@ std::vector<ProbePoint> read_points(const LocalizeFlags& flags, double mm_per_un
     for (const std::size_t index : read_subset(flags.subset, file.points.size())) chosen.push_back(file.points[index]);
     file.points = std::move(chosen);
   }
-  if (file.points.size() < 6) {
-    throw ToolError(
-        fmt::format("{}: {} points, at least 6 are needed for the six degrees of freedom; probe more points",
-                    flags.subset.empty() ? flags.points : flags.subset, file.points.size()));
+  if (file.points.empty()) {
+    throw ToolError(fmt::format("{}: names no point; probe some, or name another file",
+                                flags.subset.empty() ? flags.points : flags.subset));
   }
   return file.points;
 }

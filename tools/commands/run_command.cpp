@@ -96,12 +96,7 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
   // A session that was refused is not this run's to report on.
   const bool refused = session.error.kind == Failure::Kind::bad_input;
   if (session.error && (refused || session.points.empty())) return exit_code_of(session.error);
-  if (!session.refused.empty()) {
-    fmt::print(stderr,
-               "bladefit: {} points, the first of them number {}, cannot be used: no numbers, or over a thousand half "
-               "sizes of the blade away; probe them again\n",
-               session.refused.size(), session.refused.front());
-  }
+  const StreamEvidence stream{session.lost, session.losses.unnumbered(), session.refused, session.losses.finished()};
   if (session.points.empty()) {
     throw ToolError(
         fmt::format("the session in {} has no point that can be used: nothing can be said of the blade; "
@@ -109,7 +104,8 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
                     plan.host.session_directory));
   }
   const Result result =
-      result_of(plan.image, plan.fit, session.points, session.report, session.verdicts, plan.host.session_directory);
+      result_of(plan.image, plan.fit, session.points, session.report, session.verdicts, stream,
+                plan.host.session_directory);
   const std::vector<std::string> files = write_session_files(plan.host.session_directory, result);
   if (!plan.json.empty()) write_output(plan.json, result_json(result), "result");
   fmt::print(words, "Session ended: {}\n{}", ending(session), operator_summary(result));

@@ -44,7 +44,15 @@ void draw_heading(const ScreenView& view, Page& page) {
                .add(session, Style::strong)
                .add("   ")
                .add(link_word(view), trouble ? Style::bad : Style::good));
-  page.rule();
+}
+
+void draw_verdict(const ScreenView& view, Page& page) {
+  const PanelState& state = view.state;
+  StyledLine line = page.line();
+  line.add(" verdict").to(kValueColumn);
+  if (!view.known || !state.has_extension) return page.put(line.add("-"));
+  const bool in = state.verdict == BladeState::in_tolerance, out = state.verdict == BladeState::out_of_tolerance;
+  page.put(line.add(verdict_words(state), out ? Style::bad : in ? Style::good : Style::strong));
 }
 
 void draw_alarm(const ScreenView& view, Page& page) {
@@ -95,7 +103,7 @@ void draw_fit(const ScreenView& view, Page& page) {
                .to(kValueColumn)
                .add(fit_words(state), style)
                .to(kSecondColumn)
-               .add(fmt::format("{} of 6 degrees of freedom known", state.determined)));
+               .add(fmt::format("{} degrees of freedom known", state.determined)));
   page.put(page.line()
                .add(" rms")
                .to(kValueColumn)
@@ -174,6 +182,7 @@ void draw_footing(const ScreenView& view, Page& page) {
 std::vector<std::string> draw_screen(const ScreenView& view, int width, int height) {
   Page page(view, width);
   draw_heading(view, page);
+  draw_verdict(view, page);
   draw_alarm(view, page);
   draw_points(view, page);
   draw_fit(view, page);
@@ -189,10 +198,11 @@ std::string status_line(const ScreenView& view) {
   if (!view.known) return fmt::format("{}: {}", view.address, link_word(view));
   const PanelState& state = view.state;
   std::string line = fmt::format(
-      "{}, {}; {} points, {:.1f} a second; fit {}, {} of 6, rms {:.4f} mm; leading edge: {} out, worst {}; rest of "
+      "{}; "
+      "{}, {}; {} points, {:.1f} a second; fit {}, {} degrees of freedom, rms {:.4f} mm; leading edge: {} out, worst {}; rest of "
       "blade: "
       "{} out",
-      session_word(state.session), link_word(view), state.points, view.points_per_second, fit_words(state),
+      state.has_extension ? verdict_words(state) : "-", session_word(state.session), link_word(view), state.points, view.points_per_second, fit_words(state),
       state.determined, real(state.rms), state.leading_edge_out,
       worst_words(state.worst_leading_edge, state.worst_leading_edge_sequence), state.rest_out);
   const std::string alarms = alarm_words(state);

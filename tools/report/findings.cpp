@@ -101,37 +101,37 @@ std::array<double, 6> standard_uncertainty_of(const Mat6& covariance) {
   return standard;
 }
 
-Outcome outcome_of(const Result& result) {
-  const RegionFindings edge = findings_of(result, Region::leading_edge), rest = findings_of(result, Region::rest);
-  if (edge.out() + rest.out() > 0) return Outcome::out_of_tolerance;
-  if (edge.pending + rest.pending > 0 || result.status != word_of(FitStatus::converged)) return Outcome::undecided;
-  const auto judged = [](const ResultPoint& point) {
-    return point.state == PointState::in && std::isfinite(point.tolerance);
-  };
-  const bool any = std::any_of(result.points.begin(), result.points.end(), judged);
-  return any ? Outcome::in_tolerance : Outcome::not_judged;
-}
-
 std::string headline(const Result& result) {
   const RegionFindings edge = findings_of(result, Region::leading_edge), rest = findings_of(result, Region::rest);
-  switch (outcome_of(result)) {
-    case Outcome::out_of_tolerance:
+  switch (result.verdict.state) {
+    case BladeState::out_of_tolerance:
+      if (edge.out() + rest.out() == 0) return "Out of tolerance: no pose brings all points within their tolerances";
       return fmt::format("Out of tolerance: {}, {} at the leading edge, {} on the rest of the blade",
                          counted(edge.out() + rest.out(), "point"), edge.out(), rest.out());
-    case Outcome::undecided:
-      return "Not decided: the fit is not final";
-    case Outcome::in_tolerance:
-      return "In tolerance: no point is out";
-    case Outcome::not_judged:
+    case BladeState::not_decided:
+      return fmt::format("Not decided: {}", result.verdict.reasons.front().text);
+    case BladeState::in_tolerance:
+      return "In tolerance: every point is within its tolerance";
+    case BladeState::not_judged:
       break;
   }
   return "Not judged: no tolerance was set";
 }
 
 std::vector<std::string> summary_sentences(const Result& result) {
-  std::vector<std::string> sentences = {points_sentence(result), fit_sentence(result)};
+  std::vector<std::string> sentences;
+  for (const VerdictReason& reason : result.verdict.reasons)
+    sentences.push_back(fmt::format("{}: {}.", readable(word_of(reason.code)), reason.text));
+  sentences.push_back(points_sentence(result));
+  sentences.push_back(fit_sentence(result));
   for (const Region region : {Region::leading_edge, Region::rest}) {
     if (findings_of(result, region).points > 0) sentences.push_back(region_sentence(result, region));
+  }
+  if (!result.judged_otherwise.empty()) {
+    sentences.push_back(
+        fmt::format("A robust fit judges {} otherwise, the first of them number {}: defects that lie together draw a "
+                    "least-squares fit towards themselves; compare with the loss tukey.",
+                    counted(result.judged_otherwise.size(), "point"), result.judged_otherwise.front()));
   }
   return sentences;
 }

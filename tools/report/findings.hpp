@@ -31,11 +31,6 @@ struct RegionFindings {
 /// Standard uncertainties of (w, dt) [rad, mm].
 [[nodiscard]] std::array<double, 6> standard_uncertainty_of(const Mat6& covariance);
 
-/// What the session says of the blade as a whole.
-enum class Outcome { in_tolerance, out_of_tolerance, undecided, not_judged };
-
-[[nodiscard]] Outcome outcome_of(const Result& result);
-
 /// The outcome in some words: the head of the report.
 [[nodiscard]] std::string headline(const Result& result);
 

@@ -40,9 +40,9 @@ svg { width: 100%; height: auto; display: block; } svg text { font-family: inher
   svg, tr { break-inside: avoid; } h2 { break-after: avoid; } thead { display: table-header-group; } }
 )";
 
-const char* style_of(Outcome outcome) {
-  if (outcome == Outcome::out_of_tolerance) return "bad";
-  return outcome == Outcome::in_tolerance ? "good" : "open";
+const char* style_of(BladeState state) {
+  if (state == BladeState::out_of_tolerance) return "bad";
+  return state == BladeState::in_tolerance ? "good" : "open";
 }
 
 std::string head(const Result& result) {
@@ -62,7 +62,7 @@ std::string origin(const Result& result) {
 
 std::string summary(const Result& result) {
   std::string html =
-      fmt::format("<p class=\"headline {}\">{}</p>\n<ul>\n", style_of(outcome_of(result)), escaped(headline(result)));
+      fmt::format("<p class=\"headline {}\">{}</p>\n<ul>\n", style_of(result.verdict.state), escaped(headline(result)));
   for (const std::string& sentence : summary_sentences(result)) html += fmt::format("<li>{}</li>\n", escaped(sentence));
   return html + "</ul>\n";
 }

@@ -38,7 +38,7 @@ std::string out_row(const Result& result, const ResultPoint& point) {
   const bool cut = point.action == Action::cut;
   return cells({fmt::format("{}", point.sequence),
                 fmt::format("<b class=\"{0}\">{1} {0}</b>", word_of(point.action), cut ? "+" : "&minus;"),
-                text.with_sign(point.distance), text.plain(point.tolerance),
+                text.with_sign(point.distance), text.with_sign(point.before), text.plain(point.tolerance),
                 text.plain(std::abs(point.distance) - point.tolerance), text.plain(point.uncertainty),
                 readable(word_of(point.region)), fmt::format("{}", point.patch), fmt::format("{:.4f}", point.u),
                 fmt::format("{:.4f}", point.v), fmt::format("{:.2f}", result.in_units(radius_of(result, point))),
@@ -91,7 +91,7 @@ std::string out_table(const Result& result) {
   if (out.empty()) return "<p>No point is out of tolerance.</p>\n";
   const std::string unit = ", " + escaped(result.units);
   std::string html = "<table class=\"points\">\n<thead>";
-  html += cells({"Point", "Action", "Distance" + unit, "Tolerance", "Beyond by", "Uncertainty", "Region", "Patch", "u",
+  html += cells({"Point", "Action", "Distance" + unit, "Unfitted", "Tolerance", "Beyond by", "Uncertainty", "Region", "Patch", "u",
                  "v", "Radius", "x measured", "y measured", "z measured"},
                 "th") +
           "</thead>\n<tbody>";
@@ -102,7 +102,8 @@ std::string out_table(const Result& result) {
   return html +
          fmt::format(
              "<p class=\"note\">Unit of length: {}. Distance: how far the point lies outside the design surface "
-             "(+, cut) or inside it (-, weld). Uncertainty: standard uncertainty of the distance that comes from "
+             "(+, cut) or inside it (-, weld). Unfitted: the same before the fit, as the machine gave the point; "
+             "a best fit hides errors. Uncertainty: standard uncertainty of the distance that comes from "
              "the fit. Radius: about the x axis of the design.</p>\n",
              escaped(result.units));
 }

@@ -97,6 +97,31 @@ std::vector<ParameterBox> read_boxes(const JsonField& leading_edge) {
   return boxes;
 }
 
+/// A member that is one of `words`.
+template <typename Value, std::size_t count>
+Value read_word(const JsonField& field, const std::array<std::string_view, count>& words) {
+  const std::optional<Value> value = value_of<Value>(words, field.text());
+  if (!value) field.refuse("is none of the words that belong here");
+  return *value;
+}
+
+ResultVerdict read_verdict(const JsonField& json) {
+  ResultVerdict verdict;
+  verdict.state = read_word<BladeState>(json["state"], kBladeStateWords);
+  verdict.decision = read_word<DecisionRule>(json["decision"], kDecisionRuleWords);
+  verdict.coverage_factor = json["coverage_factor"].number();
+  const JsonField reasons = json["reasons"], lost = json["lost"];
+  for (std::size_t k = 0; k < reasons.size(); ++k) {
+    const JsonField reason = reasons.element(k);
+    verdict.reasons.push_back({read_word<Reason>(reason["code"], kReasonWords), reason["text"].text()});
+  }
+  for (std::size_t k = 0; k < lost.size(); ++k) {
+    lost.element(k).need_size(2);
+    verdict.lost.push_back({lost.element(k).element(0).whole(), lost.element(k).element(1).whole()});
+  }
+  return verdict;
+}
+
 Certificate read_certificate(const JsonField& json) {
   Certificate certificate;
   const JsonField points = json["points"], multipliers = json["multipliers"], signs = json["signs"];
@@ -141,16 +166,18 @@ void read_optional(const JsonField& root, Result& result) {
     const JsonField loss = root["loss"];
     result.loss = LossUsed{loss["name"].text(), length_of(loss["scale"], result.mm_per_unit)};
   }
+  if (root.has("robust")) {
+    const JsonField points = root["robust"]["judged_otherwise"];
+    for (std::size_t k = 0; k < points.size(); ++k)
+      result.judged_otherwise.push_back(points.element(k).whole() + 1);
+  }
   if (root.has("aberrant")) result.outliers = read_outliers(root["aberrant"], result.mm_per_unit);
 }
 
 ResultPoint read_point(const JsonField& json) {
   ResultPoint point;
-  const JsonField state = json["state"];
-  const std::optional<PointState> value = value_of<PointState>(kStateWords, state.text());
-  if (!value) state.refuse("is no state of a point");
   point.sequence = json["index"].whole() + 1;
-  point.state = *value;
+  point.state = read_word<PointState>(json["state"], kStateWords);
   return point;
 }
 
@@ -161,6 +188,7 @@ Result parse_result(const std::string& path, const std::string& text) {
   const JsonField root(json, path, "");
   Result result;
   result.text = text;
+  result.verdict = read_verdict(root["verdict"]);
   result.status = root["status"].text();
   result.mode = root["mode"].text();
   result.mm_per_unit = unit_of(root["units"]);

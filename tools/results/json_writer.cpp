@@ -78,9 +78,27 @@ Json outliers_json(const Outliers& outliers, double mm_per_unit) {
   return {{"limit", outliers.limit}, {"scale", outliers.scale / mm_per_unit}, {"points", points}};
 }
 
+Json robust_json(const std::vector<std::uint32_t>& judged_otherwise) {
+  Json points = Json::array();
+  for (const std::uint32_t sequence : judged_otherwise) points.push_back(sequence - 1);
+  return {{"judged_otherwise", points}};
+}
+
 Json loss_json(const std::optional<LossUsed>& loss, double mm_per_unit) {
   if (!loss) return nullptr;
   return {{"name", loss->name}, {"scale", loss->scale / mm_per_unit}};
+}
+
+Json verdict_json(const ResultVerdict& verdict) {
+  Json reasons = Json::array(), lost = Json::array();
+  for (const VerdictReason& reason : verdict.reasons)
+    reasons.push_back({{"code", word_of(reason.code)}, {"text", reason.text}});
+  for (const SequenceRange& range : verdict.lost) lost.push_back({range.first, range.last});
+  return {{"state", word_of(verdict.state)},
+          {"reasons", reasons},
+          {"lost", lost},
+          {"decision", word_of(verdict.decision)},
+          {"coverage_factor", verdict.coverage_factor}};
 }
 
 Json points_json(const std::vector<ResultPoint>& points, double mm_per_unit) {
@@ -93,7 +111,10 @@ Json points_json(const std::vector<ResultPoint>& points, double mm_per_unit) {
                     {"kind", word_of(point.kind)},
                     {"region", word_of(point.region)},
                     {"distance", point.distance / mm_per_unit},
+                    {"distance_before", point.before / mm_per_unit},
+                    {"tolerance", length_or_null(point.tolerance, mm_per_unit)},
                     {"uncertainty", point.uncertainty / mm_per_unit},
+                    {"expanded_uncertainty", point.expanded / mm_per_unit},
                     {"state", word_of(point.state)},
                     {"action", word_of(point.action)}});
   }
@@ -105,6 +126,7 @@ Json points_json(const std::vector<ResultPoint>& points, double mm_per_unit) {
 std::string result_json(const Result& result) {
   const double unit = result.mm_per_unit;
   Json json;
+  json["verdict"] = verdict_json(result.verdict);
   json["status"] = result.status;
   json["mode"] = result.mode;
   json["units"] = result.units;
@@ -125,6 +147,7 @@ std::string result_json(const Result& result) {
   json["locked"] = result.locked;
   json["loss"] = loss_json(result.loss, unit);
   json["aberrant"] = outliers_json(result.outliers, unit);  // the key that readers of result.json know
+  json["robust"] = robust_json(result.judged_otherwise);
   json["points"] = points_json(result.points, unit);
   return json.dump(1) + "\n";
 }

@@ -22,8 +22,8 @@ std::string length(const Result& result, double mm) {
 }
 
 std::string where(const Result& result, const ResultPoint& point) {
-  return fmt::format("{:+.3f} {} at r/R {:.2f}", result.in_units(point.distance), result.units,
-                     radius(point.foot.value()) / result.details->tip_radius);
+  return fmt::format("{:+.3f} {} (unfitted {:+.3f}) at r/R {:.2f}", result.in_units(point.distance), result.units,
+                     result.in_units(point.before), radius(point.foot.value()) / result.details->tip_radius);
 }
 
 std::string region_line(const Result& result, Region region, const char* name) {
@@ -72,6 +72,18 @@ std::string outlier_line(const Result& result) {
   return text + (outliers.points.size() > kListed ? " ...\n" : "\n");
 }
 
+/// "A robust fit judges 34 points otherwise: 12, 13 ...".
+std::string robust_line(const Result& result) {
+  const std::vector<std::uint32_t>& points = result.judged_otherwise;
+  if (points.empty()) return "";
+  const auto told = static_cast<std::ptrdiff_t>(std::min(points.size(), kListed));
+  return fmt::format(
+      "A robust fit judges {} {} otherwise: {}{}; defects that lie together draw a least-squares fit towards "
+      "themselves: compare with --loss tukey\n",
+      points.size(), points.size() == 1 ? "point" : "points",
+      fmt::join(points.begin(), points.begin() + told, ", "), points.size() > kListed ? " ..." : "");
+}
+
 /// Settings that a reader of the figures must know, and the points that do not belong to the others.
 std::string fit_remarks(const Result& result) {
   std::string text;
@@ -80,7 +92,7 @@ std::string fit_remarks(const Result& result) {
     text += fmt::format("Robust loss {}, standard deviation of good points {:.4g} {}\n", result.loss->name,
                         result.in_units(result.loss->scale), result.units);
   }
-  return text + outlier_line(result);
+  return text + outlier_line(result) + robust_line(result);
 }
 
 /// "points 12, 81 and 407".
@@ -148,11 +160,26 @@ std::string fit_lines(const Result& result) {
   const EulerAngles e = euler_angles(result.pose.rotation);
   const Vec3 t = result.pose.translation / result.mm_per_unit;
   return fmt::format(
-      "Fit {}: {} of {} points, {} degrees of freedom determined, rms {:.4f} {} (before {:.4f} {})\n"
+      "Fit {}: {} of {} points, {} of {} degrees of freedom determined, rms {:.4f} {} (before {:.4f} {})\n"
       "Pose: tx {:.5f} ty {:.5f} tz {:.5f} {}; psi {:.7f} theta {:.7f} phi {:.7f} rad\n",
-      result.status, result.all.count, result.points.size(), result.details->determined,
+      result.status, result.all.count, result.points.size(), result.details->determined, result.details->free,
       result.in_units(result.all.rms_after), result.units, result.in_units(result.all.rms_before), result.units, t[0],
       t[1], t[2], result.units, e.psi, e.theta, e.phi);
+}
+
+/// The word on the blade, then every reason.
+std::string verdict_lines(const Result& result) {
+  std::string text = fmt::format("Verdict: {}\n", word_of(result.verdict.state));
+  for (const VerdictReason& reason : result.verdict.reasons)
+    text += fmt::format("  {}: {}\n", word_of(reason.code), reason.text);
+  return text;
+}
+
+/// "simple", or the rule with what it rests on.
+std::string decision_line(const Result& result) {
+  const ResultVerdict& verdict = result.verdict;
+  if (verdict.decision == DecisionRule::simple) return "";
+  return fmt::format("Decision: guarded (ISO 14253-1), in or out only beyond U = {:g} u\n", verdict.coverage_factor);
 }
 
 /// The points of the leading edge, and those that do not count.
@@ -177,7 +204,8 @@ std::string tolerance_lines(const Result& result) {
     return std::isfinite(mm) ? fmt::format("{:.3f} {}", result.in_units(mm), result.units) : std::string("none");
   };
   std::string text =
-      fmt::format("Tolerance: leading edge {}, rest of blade {}\n", has_edge ? allowed(edge) : "none", allowed(rest));
+      fmt::format("Tolerance: leading edge {}, rest of blade {}\n", has_edge ? allowed(edge) : "none", allowed(rest)) +
+      decision_line(result);
   if (std::isfinite(edge) && has_edge)
     text += region_line(result, Region::leading_edge, "leading-edge") + worst_list(result);
   if (std::isfinite(rest)) text += region_line(result, Region::rest, "other");
@@ -187,10 +215,11 @@ std::string tolerance_lines(const Result& result) {
 }  // namespace
 
 std::string operator_summary(const Result& result) {
-  std::string text = fit_lines(result) + optimum_line(result) + fit_remarks(result);
-  if (result.details->unproven > 0)
-    text += fmt::format("{} feet could not be proven the nearest: do not rely on this fit\n", result.details->unproven);
-  return text + point_lines(result) + tolerance_lines(result);
+  const bool decided = result.verdict.fit_decided();
+  std::string text = verdict_lines(result) + fit_lines(result);
+  if (decided) text += optimum_line(result);
+  text += fit_remarks(result) + point_lines(result);
+  return decided ? text + tolerance_lines(result) : text;
 }
 
 }  // namespace bladefit

@@ -8,7 +8,9 @@
 
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/pose.hpp"
-#include "core/inspection/verdict.hpp"
+#include "core/inspection/blade_verdict.hpp"
+#include "core/inspection/decision.hpp"
+#include "firmware_bridge/host/fit/stream_losses.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
 
 namespace bladefit {
@@ -24,6 +26,8 @@ struct ResultPoint {
   double distance = 0;     ///< > 0: excess material
   double tolerance = 0;    ///< |distance| allowed; infinity = not judged
   double uncertainty = 0;  ///< standard uncertainty of the distance that comes from the pose
+  double expanded = 0;     ///< expanded uncertainty of the distance, the probe's part included where it is known
+  double before = 0;       ///< distance before the fit, at C = I, t = 0: a best fit hides errors
   PointState state = PointState::pending;
   Action action = Action::none;
   std::optional<Vec3> foot;  ///< on the design; nothing in a session that was read back, whose files do not hold it
@@ -59,13 +63,33 @@ struct LossUsed {
   double scale = 0;  ///< standard deviation of good points [mm]
 };
 
+/// Why a blade is not decided, or what is to be known beside a decision: what happened, and what to do.
+struct VerdictReason {
+  Reason code;
+  std::string text;
+};
+
+/// The one word on the blade, and what stands behind it.
+struct ResultVerdict {
+  BladeState state = BladeState::not_decided;
+  std::vector<VerdictReason> reasons;
+  std::vector<SequenceRange> lost;  ///< records of the device that never arrived
+  DecisionRule decision = DecisionRule::simple;
+  double coverage_factor = 2;
+
+  [[nodiscard]] Reasons codes() const;
+  /// False where the fit itself is in doubt: then no point is judged.
+  [[nodiscard]] bool fit_decided() const { return !codes().doubt_the_fit(); }
+};
+
 /// What only the fit itself knows: the files of a session do not hold it.
 struct FitDetails {
   FitMode mode = FitMode::least_squares;
   double ratio = 1;                   ///< of the tolerances, rest to leading edge, in min_tolerance
   double leading_edge_tolerance = 0;  ///< by which points were judged [mm]: in min_tolerance not that which was found
   double rest_tolerance = 0;
-  std::uint32_t determined = 0;  ///< degrees of freedom
+  std::uint32_t determined = 0;  ///< degrees of freedom that the points determine
+  std::uint32_t free = 6;        ///< degrees of freedom that are not locked
   std::uint32_t unproven = 0;    ///< feet that could not be proven the nearest
   double stationarity = 0;       ///< of the optimum's Karush-Kuhn-Tucker conditions, relative
   double tip_radius = 0;         ///< largest radius of the design about its x axis [mm]
@@ -79,6 +103,7 @@ struct Result {
   std::optional<SessionIdentity> identity;  ///< design and settings that a session's recording is bound to
   std::string text;                         ///< result.json to the letter, where this was read from one
 
+  ResultVerdict verdict;
   std::string status, mode;  ///< in the words of result.json
   std::string units = "mm";  ///< mm or in
   double mm_per_unit = 1.0;
@@ -94,6 +119,7 @@ struct Result {
   std::vector<std::string> locked;   ///< degrees of freedom that kept their start value: tx, ry ...
   std::optional<LossUsed> loss;
   Outliers outliers;
+  std::vector<std::uint32_t> judged_otherwise;  ///< points that a robust fit finds in instead of out, or the reverse
   std::vector<ResultPoint> points;  ///< rising sequence
   std::optional<FitDetails> details;
 
@@ -101,7 +127,8 @@ struct Result {
   [[nodiscard]] double in_units(double length) const { return length / mm_per_unit; }
 };
 
-/// Exit code: 1 where a point is out of tolerance or no pose meets the tolerances, else 0.
+/// Exit code of the verdict: 0 in tolerance or nothing to judge, 1 out of tolerance, 4 not decided or nothing to judge
+/// by a fit that is itself not decided.
 [[nodiscard]] int exit_code_of(const Result& result);
 
 }  // namespace bladefit

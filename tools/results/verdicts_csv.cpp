@@ -15,9 +15,10 @@
 namespace bladefit {
 namespace {
 
-constexpr std::array<std::string_view, 14> kColumns = {
+constexpr std::array<std::string_view, 16> kColumns = {
     "sequence",     "patch",          "u",     "v",      "kind", "region", "distance_mm",
-    "tolerance_mm", "uncertainty_mm", "state", "action", "x",    "y",      "z"};
+    "tolerance_mm", "uncertainty_mm", "state", "action", "x",    "y",      "z",
+    "expanded_uncertainty_mm", "distance_before_mm"};
 constexpr std::size_t kQuotedCharacters = 40;
 constexpr const char* kRemedy = "the file is damaged or foreign; run the session again with the same --session";
 
@@ -97,6 +98,8 @@ ResultPoint point_of(const Row& row) {
   point.state = row.one_of<PointState>(9, kStateWords);
   point.action = row.one_of<Action>(10, kActionWords);
   for (std::size_t axis = 0; axis < 3; ++axis) point.position.at(axis) = row.finite(11 + axis);
+  point.expanded = row.bound(14);
+  point.before = row.finite(15);
   return point;
 }
 
@@ -105,10 +108,10 @@ ResultPoint point_of(const Row& row) {
 std::string verdicts_csv(const std::vector<ResultPoint>& points) {
   std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const ResultPoint& point : points) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u, point.v,
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u, point.v,
                         word_of(point.kind), word_of(point.region), point.distance, point.tolerance, point.uncertainty,
                         word_of(point.state), word_of(point.action), point.position[0], point.position[1],
-                        point.position[2]);
+                        point.position[2], point.expanded, point.before);
   }
   return text;
 }

@@ -13,7 +13,7 @@ namespace bladefit {
 /// tracking when it ends has not converged.
 inline constexpr std::array<std::string_view, 3> kKindWords = {"interior", "edge", "corner"};
 inline constexpr std::array<std::string_view, 2> kRegionWords = {"rest", "leading_edge"};
-inline constexpr std::array<std::string_view, 4> kStateWords = {"pending", "in", "out", "rejected"};
+inline constexpr std::array<std::string_view, 5> kStateWords = {"pending", "in", "out", "rejected", "undecided"};
 inline constexpr std::array<std::string_view, 3> kActionWords = {"none", "cut", "weld"};
 inline constexpr std::array<std::string_view, 4> kFitWords = {"underdetermined", "not_converged", "converged",
                                                               "infeasible"};

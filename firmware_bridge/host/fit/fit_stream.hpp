@@ -48,6 +48,8 @@ class FitStream {
       case EventKind::reset:
         reset();
         return observer.forgotten();
+      case EventKind::lost:
+        return;
     }
   }
 

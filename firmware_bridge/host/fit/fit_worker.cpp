@@ -23,6 +23,7 @@ void FitWorker::run() {
     take(input.event);
     if (++events_since_figures_ >= kEventsBetweenFigures) publish_figures();
   }
+  if (input.finished) losses_.finish();
   stream_.settle();
   settled();
   publish_figures();
@@ -32,6 +33,7 @@ void FitWorker::run() {
 
 void FitWorker::take(const StreamEvent& event) {
   taken_at_ = Clock::now();
+  static_cast<void>(losses_.take(event));
   stream_.follow(event, *this);
   publish_revisions();
 }
@@ -86,7 +88,7 @@ void FitWorker::report_again(std::span<const std::uint32_t> sequences) {
 void FitWorker::publish_figures() {
   report_again(alarms_.sequences());
   constexpr double kPercentile = 0.99;
-  shared_.fit_figures.publish({stream_.localizer().fit(), latency_.quantile_us(kPercentile)});
+  shared_.fit_figures.publish({stream_.localizer().fit(), losses_, latency_.quantile_us(kPercentile)});
   events_since_figures_ = 0;
   shared_.to_publication.wakeup.signal();
 }

@@ -39,6 +39,7 @@ class FitWorker {
   void report_again(std::span<const std::uint32_t> sequences);
 
   FitStream stream_;
+  StreamLosses losses_;
   HostShared& shared_;
   LatencyHistogram latency_;
   std::vector<std::uint32_t> stored_sequences_;  ///< never grows beyond what was reserved

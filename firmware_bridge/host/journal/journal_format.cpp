@@ -11,7 +11,7 @@ std::uint32_t crc_before(const Block& block, std::size_t crc_offset, std::uint32
 }
 
 bool kind_is_known(EventKind kind) {
-  return kind == EventKind::point || kind == EventKind::finished || kind == EventKind::reset;
+  return kind >= EventKind::point && kind <= EventKind::lost;
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace bladefit {
 
 /// Journal of a session, little endian: one JournalHeader, then JournalRecords to the end of the file.
 inline constexpr std::array<char, 8> kJournalMagic = {'B', 'F', 'J', 'R', 'N', 'L', '\r', '\n'};
-/// Version 4: the digest holds every field of the configuration; that of version 3 left out `further_starts`.
-inline constexpr std::uint32_t kJournalVersion = 4;
+/// Version 5: it tells of points that were lost, and its digest holds the rule of decision.
+inline constexpr std::uint32_t kJournalVersion = 5;
 
 /// What a session is bound to: its points mean something for this design and these settings only.
 struct SessionIdentity {

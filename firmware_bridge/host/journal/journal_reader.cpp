@@ -29,7 +29,7 @@ Failure check_header(const std::string& path, const JournalHeader& header) {
     return bad_input(fmt::format("{}: is no journal of a session; name another session folder", path));
   }
   if (header.version != kJournalVersion) {
-    const char* why = header.version < kJournalVersion ? ", whose check of the settings left out some of them" : "";
+    const char* why = header.version < kJournalVersion ? ", which does not tell of lost points" : "";
     return bad_input(
         fmt::format("{}: journal of format version {}{}; this program reads version {}: use the program that wrote it, "
                     "or name another "

@@ -1,6 +1,8 @@
 #include "firmware_bridge/host/panel/panel_map.hpp"
 
+#include <array>
 #include <bit>
+#include <utility>
 
 namespace bladefit {
 namespace {
@@ -87,6 +89,7 @@ void walk_extension(Walk& walk, State& state) {
   }
   walk.word(state.improving);
   for (auto& sequence : state.support) walk.wide(sequence);
+  walk.word(state.verdict).word(state.reasons);
 }
 
 template <typename Walk, typename State>
@@ -99,14 +102,41 @@ void walk_registers(Walk& walk, State& state) {
 
 }  // namespace
 
+std::uint16_t reason_bits(const Reasons& reasons) {
+  using enum Reason;
+  static constexpr std::array<std::pair<Reason, PanelReason>, 13> kBits = {{{not_converged, kReasonNotConverged},
+                                                                            {underdetermined, kReasonUnderdetermined},
+                                                                            {unproven, kReasonUnproven},
+                                                                            {wrong_units, kReasonWrongWorld},
+                                                                            {mirrored, kReasonWrongWorld},
+                                                                            {ambiguous, kReasonAmbiguous},
+                                                                            {far_start, kReasonAmbiguous},
+                                                                            {points_lost, kReasonPointsMissing},
+                                                                            {points_refused, kReasonPointsMissing},
+                                                                            {zone_not_probed, kReasonZoneNotProbed},
+                                                                            {pending, kReasonOpen},
+                                                                            {undecided, kReasonOpen},
+                                                                            {unfinished, kReasonOpen}}};
+  unsigned bits = 0;
+  for (const auto& [reason, bit] : kBits) {
+    if (reasons.has(reason)) bits |= bit;
+  }
+  return static_cast<std::uint16_t>(bits);
+}
+
 PanelImage encode_panel(const PanelState& state) {
   PanelImage image;
   Writer registers(image.registers);
   walk_registers(registers.word(kPanelMapVersion), state);
   Writer extension(image.extension);
   walk_extension(extension, state);
-  image.discrete = {state.leading_edge_out > 0, state.leading_edge_out + state.rest_out > 0,
-                    (state.alarms & kAlarmLinkLost) != 0, state.determined == 6};
+  extension.real(kPanelTestReal).wide(kPanelTestWord);
+  image.discrete = {state.leading_edge_out > 0,
+                    state.leading_edge_out + state.rest_out > 0,
+                    (state.alarms & kAlarmLinkLost) != 0,
+                    state.fit_determined,
+                    state.verdict == BladeState::in_tolerance,
+                    state.verdict == BladeState::not_decided};
   return image;
 }
 

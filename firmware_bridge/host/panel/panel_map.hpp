@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/inspection/verdict.hpp"
+#include "core/inspection/blade_verdict.hpp"
 
 namespace bladefit {
 
@@ -31,8 +31,12 @@ namespace bladefit {
 /// points, from 200 + 8 k: uint16 patch, float32 u, float32 v, float32 distance from the shaft axis x, uint16 action.
 ///   264      uint16 1: the optimum of the mode still improves, or not every point was looked at since it did
 ///   265-280  8 uint32: sequences of the points that prove the smallest feasible tolerance; 0 = no more
+///   281      verdict on the blade: 0 not judged, 1 in tolerance, 2 out of tolerance, 3 not decided
+///   282      its reasons, see PanelReason
+///   283-284  float32 12345.678, 285-286 uint32 0x12345678: they tell a wrong word order
 ///
-/// Discrete inputs (function code 2): 0 leading edge out, 1 any point out, 2 link lost, 3 fit determined.
+/// Discrete inputs (function code 2): 0 leading edge out, 1 any point out, 2 link lost, 3 fit determined, 4 in
+/// tolerance, 5 not decided; 6 and 7 are 0.
 /// Coils (5, 15), refused unless commands are enabled: 0 start, 1 stop, 2 reset, 3 acknowledge the alarm.
 inline constexpr std::uint16_t kPanelMapVersion = 1;
 inline constexpr std::size_t kPanelRegisters = 92;
@@ -40,8 +44,10 @@ inline constexpr std::size_t kPanelPlaces = 8;
 inline constexpr std::uint16_t kPlaceBase = 200;
 inline constexpr std::size_t kPlaceRegisters = 8;
 inline constexpr std::size_t kPanelSupport = 8;
-inline constexpr std::size_t kExtensionRegisters = kPanelPlaces * kPlaceRegisters + 1 + 2 * kPanelSupport;
-inline constexpr std::size_t kPanelDiscreteInputs = 4;
+inline constexpr std::size_t kExtensionRegisters = kPanelPlaces * kPlaceRegisters + 1 + 2 * kPanelSupport + 6;
+inline constexpr float kPanelTestReal = 12345.678F;
+inline constexpr std::uint32_t kPanelTestWord = 0x12345678;
+inline constexpr std::size_t kPanelDiscreteInputs = 8;
 inline constexpr std::size_t kPanelCoils = 4;
 
 enum class SessionState : std::uint16_t {
@@ -62,6 +68,22 @@ enum PanelAlarm : std::uint16_t {
   kAlarmMemoryFull = 16,
   kAlarmInfeasible = 32,
 };
+
+/// Bits of register 282.
+enum PanelReason : std::uint16_t {
+  kReasonNotConverged = 1,
+  kReasonUnderdetermined = 2,
+  kReasonUnproven = 4,
+  kReasonPointsMissing = 8,
+  kReasonZoneNotProbed = 16,
+  kReasonOpen = 32,  ///< points are pending or undecided, or the program is not finished
+  kReasonLinkLost = 64,
+  kReasonWrongWorld = 128,  ///< wrong units, or a mirrored blade
+  kReasonAmbiguous = 256,   ///< another fit may be as good
+};
+
+/// The bits that stand for a set of reasons.
+[[nodiscard]] std::uint16_t reason_bits(const Reasons& reasons);
 
 /// A leading-edge point out of tolerance. Distances in mm; sequence 0 = no such point.
 struct PanelPlace {
@@ -97,7 +119,10 @@ struct PanelState {
   std::uint16_t determined = 0;
   bool improving = false;
   std::array<std::uint32_t, kPanelSupport> support{};  ///< points that prove the smallest tolerance; 0 = no more
-  bool has_extension = false;  ///< whether `improving`, `support` and patch, u, v, radius, action of `newest` are known
+  BladeState verdict = BladeState::not_decided;
+  std::uint16_t reasons = 0;    ///< PanelReason bits
+  bool fit_determined = false;  ///< every degree of freedom that is not locked; not in a register
+  bool has_extension = false;   ///< whether `verdict`, `improving`, `support` and patch, u, v, radius, action of `newest` are known
   std::array<PanelPlace, kPanelPlaces> newest{};
 };
 
@@ -110,7 +135,7 @@ struct PanelImage {
 
 [[nodiscard]] PanelImage encode_panel(const PanelState& state);
 
-/// Reads a state back from registers 0..91, and from 200..280 or an empty span where the server has no extension.
+/// Reads a state back from registers 0..91, and from 200..286 or an empty span where the server has no extension.
 /// False when the map is of another version; then `state` is as before.
 [[nodiscard]] bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers,
                                 std::span<const std::uint16_t> extension, PanelState& state);

@@ -24,7 +24,7 @@ PanelPlace place_of(const Verdict& verdict) {
 }  // namespace
 
 Publication::Publication(const ToleranceMap& tolerance, PanelServer& server, HostShared& shared)
-    : tolerance_(tolerance), server_(server), shared_(shared) {}
+    : tolerance_(tolerance), server_(server), shared_(shared), tally_(tolerance_) {}
 
 void Publication::run() {
   const auto on_commands = [this](const PanelCommands& commands) { follow(commands); };
@@ -62,6 +62,7 @@ void Publication::update_state() {
   update_places();
   state_.session = session_state();
   state_.alarms = alarms();
+  update_verdict();
   const auto running = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - start_).count();
   state_.heartbeat = static_cast<std::uint16_t>(running);
 }
@@ -73,6 +74,11 @@ void Publication::update_counts() {
   state_.leading_edge_out = counts.leading_edge_out;
   state_.rest_out = counts.rest_out;
   state_.rejected = counts.rejected;
+  const Verdict none, *const edge = tally_.worst(Region::leading_edge), *const rest = tally_.worst(Region::rest);
+  state_.worst_leading_edge = to_float((edge != nullptr ? *edge : none).foot.distance);
+  state_.worst_leading_edge_sequence = (edge != nullptr ? *edge : none).sequence;
+  state_.worst_rest = to_float((rest != nullptr ? *rest : none).foot.distance);
+  state_.worst_rest_sequence = (rest != nullptr ? *rest : none).sequence;
 }
 
 void Publication::update_fit() {
@@ -80,10 +86,6 @@ void Publication::update_fit() {
   state_.fit_status = static_cast<std::uint16_t>(report.status);
   state_.rms = to_float(report.rms_mm);
   state_.leading_edge_rms = to_float(report.leading_edge.rms_mm);
-  state_.worst_leading_edge = to_float(report.leading_edge.worst_mm);
-  state_.worst_leading_edge_sequence = report.leading_edge.worst_sequence;
-  state_.worst_rest = to_float(report.rest.worst_mm);
-  state_.worst_rest_sequence = report.rest.worst_sequence;
   const EulerAngles angles = euler_angles(report.pose.rotation);
   const Vec3& shift = report.pose.translation;
   state_.pose = {to_float(shift.x()),  to_float(shift.y()),    to_float(shift.z()),
@@ -95,6 +97,30 @@ void Publication::update_fit() {
   state_.leading_edge_tolerance = to_float(tolerance_.leading_edge_mm);
   state_.rest_tolerance = to_float(tolerance_.rest_mm);
   state_.push_latency_us = to_float(figures_.push_p99_us);
+}
+
+void Publication::update_verdict() {
+  const FitReport& report = figures_.report;
+  const TallyCounts& counts = tally_.counts();
+  const BladeVerdict verdict =
+      judge_blade({.converged = report.status == FitStatus::converged,
+                   .infeasible = report.status == FitStatus::infeasible,
+                   .determined = report.determined,
+                   .free = report.free,
+                   .unproven = report.unproven,
+                   .judged = sets_tolerance(tolerance_),
+                   .out = counts.leading_edge_out + counts.rest_out,
+                   .pending = counts.pending,
+                   .undecided = counts.undecided,
+                   .lost = figures_.losses.records() + (figures_.losses.unnumbered() ? 1U : 0U),
+                   .refused = counts.refused,
+                   .zones_missed = tally_.zones().missed(),
+                   .finished = figures_.losses.finished(),
+                   .doubts = {}});
+  state_.verdict = verdict.state;
+  state_.reasons = reason_bits(verdict.reasons);
+  if (link_.link == LinkState::lost) state_.reasons |= kReasonLinkLost;
+  state_.fit_determined = report.determined == report.free;
 }
 
 void Publication::update_last() {

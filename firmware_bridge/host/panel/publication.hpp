@@ -26,6 +26,7 @@ class Publication {
   void update_state();
   void update_counts();
   void update_fit();
+  void update_verdict();
   void update_last();
   void update_places();
   [[nodiscard]] SessionState session_state();

@@ -1,6 +1,7 @@
 #include "firmware_bridge/host/panel/tally.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bladefit {
 namespace {
@@ -31,9 +32,15 @@ void Tally::accept(const Verdict& verdict) {
 // `sign` is +1 or -1 modulo 2^32.
 void Tally::count(const Verdict& verdict, std::uint32_t sign) {
   counts_.points += sign;
+  zones_.count(verdict, sign);
   if (verdict.state == PointState::rejected) {
     counts_.rejected += sign;
+    if (!has_foot(verdict)) counts_.refused += sign;
     return;
+  }
+  if (std::isfinite(verdict.tolerance_mm)) {
+    if (verdict.state == PointState::pending) counts_.pending += sign;
+    if (verdict.state == PointState::undecided) counts_.undecided += sign;
   }
   const bool leading_edge = verdict.region == Region::leading_edge;
   if (leading_edge) counts_.leading_edge += sign;
@@ -49,10 +56,20 @@ void Tally::follow_leading_edge(std::uint32_t sequence, bool was_out, bool is_ou
   }
 }
 
+const Verdict* Tally::worst(Region region) const {
+  const Verdict* worst = nullptr;
+  for (const Verdict& verdict : verdicts_) {
+    if (verdict.region != region || !is_judged(verdict.state)) continue;
+    if (worst == nullptr || std::abs(verdict.foot.distance) > std::abs(worst->foot.distance)) worst = &verdict;
+  }
+  return worst;
+}
+
 void Tally::clear() {
   verdicts_.clear();
   leading_edge_out_.clear();
   counts_ = {};
+  zones_.clear();
 }
 
 const Verdict* Tally::find(std::uint32_t sequence) const {

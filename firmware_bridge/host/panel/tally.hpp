@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/inspection/verdict.hpp"
+#include "core/inspection/blade_verdict.hpp"
 
 namespace bladefit {
 
@@ -14,12 +14,16 @@ struct TallyCounts {
   std::uint32_t leading_edge_out = 0;
   std::uint32_t rest_out = 0;
   std::uint32_t rejected = 0;
+  std::uint32_t refused = 0;             ///< of these, how many could not be used at all
+  std::uint32_t pending = 0, undecided = 0;  ///< of those that have a tolerance
 };
 
 /// The newest verdict of every point, and what follows from them. Grows with the session: it belongs to the
 /// publication thread, which may allocate.
 class Tally {
  public:
+  explicit Tally(const ToleranceMap& tolerance) : zones_(tolerance) {}
+
   /// Takes a first verdict or a revision. Cost: constant for rising sequence numbers, else a binary search.
   void accept(const Verdict& verdict);
 
@@ -27,6 +31,12 @@ class Tally {
   void clear();
 
   [[nodiscard]] const TallyCounts& counts() const { return counts_; }
+
+  [[nodiscard]] const ZoneCount& zones() const { return zones_; }
+
+  /// The judged point of a region that is farthest off, by the same verdicts as the counts; null where there is none.
+  /// Cost: linear.
+  [[nodiscard]] const Verdict* worst(Region region) const;
 
   /// Verdicts in rising order of sequence.
   [[nodiscard]] std::span<const Verdict> verdicts() const { return verdicts_; }
@@ -47,6 +57,7 @@ class Tally {
   std::vector<Verdict> verdicts_;
   std::vector<std::uint32_t> leading_edge_out_;
   TallyCounts counts_;
+  ZoneCount zones_;
   std::uint64_t times_out_ = 0;
 };
 

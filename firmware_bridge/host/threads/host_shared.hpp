@@ -7,6 +7,7 @@
 
 #include "core/localizer.hpp"
 #include "drivers/source/probe_source.hpp"
+#include "firmware_bridge/host/fit/stream_losses.hpp"
 #include "firmware_bridge/host/threads/channel.hpp"
 #include "firmware_bridge/host/threads/latest_value.hpp"
 #include "firmware_bridge/host/threads/notice_sink.hpp"
@@ -19,7 +20,8 @@ namespace bladefit {
 
 /// From the acquisition thread to the fit thread.
 struct FitInput {
-  bool end = false;  ///< no event follows
+  bool end = false;       ///< no event follows
+  bool finished = false;  ///< and that is the end of the device's program
   StreamEvent event;
 };
 
@@ -32,6 +34,7 @@ struct FitOutput {
 /// What the fit thread reports of the whole fit.
 struct FitFigures {
   FitReport report;
+  StreamLosses losses;
   double push_p99_us = 0;
 };
 

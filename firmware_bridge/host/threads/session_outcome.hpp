@@ -27,6 +27,10 @@ class SessionOutcome {
     return failure_;
   }
 
+  /// Acquisition only, before conclude(): whether the device's program is finished.
+  void set_program_ended(bool ended) { program_ended_.store(ended); }
+  [[nodiscard]] bool program_ended() const { return program_ended_.load(); }
+
   /// Acquisition only: no further point is taken.
   void conclude(SessionEnd end) { end_.store(failed() ? SessionEnd::failed : end); }
 
@@ -34,6 +38,7 @@ class SessionOutcome {
 
  private:
   std::atomic<bool> failed_{false};
+  std::atomic<bool> program_ended_{false};
   std::atomic<SessionEnd> end_{SessionEnd::running};
   std::mutex mutex_;
   Failure failure_;

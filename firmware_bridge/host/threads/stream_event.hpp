@@ -9,13 +9,15 @@ enum class EventKind : std::uint8_t {
   point = 1,
   finished = 2,  ///< the device said that its program is finished
   reset = 3,     ///< the operator asked to forget all points so far
+  lost = 4,      ///< points were lost before they had a number
 };
 
 /// One element of the stream that a session consists of. The order of the events, and nothing else, decides about the
 /// result; so it is they that the journal keeps.
 struct StreamEvent {
   EventKind kind = EventKind::point;
-  ProbePoint point;  ///< of kind point only
+  /// Of kind point. Of kind finished its sequence alone: that of the device's last record; 0 = not known.
+  ProbePoint point;
 };
 
 }  // namespace bladefit

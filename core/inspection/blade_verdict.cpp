@@ -1,0 +1,51 @@
+#include "core/inspection/blade_verdict.hpp"
+
+#include <cmath>
+
+namespace bladefit {
+namespace {
+
+Reasons reasons_of(const BladeEvidence& e) {
+  Reasons reasons = e.doubts;
+  reasons.add_if(!e.converged && !e.infeasible && e.determined >= e.free, Reason::not_converged);
+  reasons.add_if(e.determined < e.free, Reason::underdetermined);
+  reasons.add_if(e.unproven > 0, Reason::unproven);
+  reasons.add_if(e.lost > 0, Reason::points_lost);
+  reasons.add_if(e.refused > 0, Reason::points_refused);
+  reasons.add_if(e.zones_missed > 0, Reason::zone_not_probed);
+  reasons.add_if(e.judged && e.pending > 0, Reason::pending);
+  reasons.add_if(e.undecided > 0, Reason::undecided);
+  reasons.add_if(!e.finished, Reason::unfinished);
+  return reasons;
+}
+
+BladeState state_of(const BladeEvidence& e, const Reasons& reasons) {
+  if (!e.judged) return BladeState::not_judged;
+  if (reasons.doubt_the_fit()) return BladeState::not_decided;
+  if (e.out > 0 || e.infeasible) return BladeState::out_of_tolerance;
+  return reasons.any() ? BladeState::not_decided : BladeState::in_tolerance;
+}
+
+}  // namespace
+
+BladeVerdict judge_blade(const BladeEvidence& evidence) {
+  const Reasons reasons = reasons_of(evidence);
+  return {state_of(evidence, reasons), reasons};
+}
+
+void ZoneCount::count(const Verdict& verdict, std::uint32_t sign) {
+  if (!is_judged(verdict.state)) return;
+  const Foot& foot = verdict.foot;
+  for (std::uint32_t k = 0; k < map_.box_count; ++k) {
+    if (contains(map_.boxes[k], foot.patch, foot.u, foot.v)) points_[k] += sign;
+  }
+}
+
+std::uint32_t ZoneCount::missed() const {
+  if (!std::isfinite(map_.leading_edge_mm)) return 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < map_.box_count; ++k) count += points_[k] < map_.least_points ? 1U : 0U;
+  return count;
+}
+
+}  // namespace bladefit

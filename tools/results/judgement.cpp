@@ -1,0 +1,181 @@
+#include "tools/results/judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/results/words.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::size_t kRangesTold = 5;
+
+bool has_tolerance(const ResultPoint& point) { return std::isfinite(point.tolerance); }
+
+/// What the points of a result came to.
+struct Counts {
+  std::uint32_t out = 0, pending = 0, undecided = 0;
+};
+
+Counts counts_of(const Result& result) {
+  Counts counts;
+  for (const ResultPoint& point : result.points) {
+    if (point.state == PointState::out) ++counts.out;
+    if (!has_tolerance(point)) continue;
+    if (point.state == PointState::pending) ++counts.pending;
+    if (point.state == PointState::undecided) ++counts.undecided;
+  }
+  return counts;
+}
+
+ZoneCount zones_of(const Result& result, const ToleranceMap& map) {
+  ZoneCount zones(map);
+  for (const ResultPoint& point : result.points) {
+    Verdict verdict;
+    verdict.state = point.state;
+    verdict.foot.patch = point.patch;
+    verdict.foot.u = point.u;
+    verdict.foot.v = point.v;
+    zones.count(verdict, 1);
+  }
+  return zones;
+}
+
+std::uint32_t records_in(const std::vector<SequenceRange>& ranges) {
+  std::uint32_t records = 0;
+  for (const SequenceRange& range : ranges) records += range.last - range.first + 1;
+  return records;
+}
+
+/// "9 to 2000, 2004".
+std::string words_of(const std::vector<SequenceRange>& ranges) {
+  std::string text;
+  for (std::size_t k = 0; k < std::min(ranges.size(), kRangesTold); ++k) {
+    const SequenceRange& r = ranges[k];
+    text += (k == 0 ? "" : ", ") + (r.first == r.last ? fmt::format("{}", r.first)
+                                                      : fmt::format("{} to {}", r.first, r.last));
+  }
+  return text + (ranges.size() > kRangesTold ? " ..." : "");
+}
+
+std::string lost_text(const StreamEvidence& stream) {
+  const std::uint32_t records = records_in(stream.lost);
+  std::string text;
+  if (records > 0)
+    text = fmt::format("{} {} never arrived: {}", records, records == 1 ? "point" : "points", words_of(stream.lost));
+  if (stream.lost_unnumbered)
+    text += fmt::format("{}points were lost on the way before they had a number", records > 0 ? "; further " : "");
+  return text + "; probe them again";
+}
+
+std::string zone_text(const ZoneCount& zones, const ToleranceMap& map) {
+  std::string text;
+  for (std::uint32_t k = 0; k < map.box_count; ++k) {
+    if (zones.points(k) >= map.least_points) continue;
+    const ParameterBox& box = map.boxes[k];
+    text += fmt::format("{}patch {} u {:g} to {:g} v {:g} to {:g} ({})", text.empty() ? "" : "; ", box.patch, box.u_min,
+                        box.u_max, box.v_min, box.v_max, zones.points(k));
+  }
+  return fmt::format(
+      "a leading-edge zone has fewer judged points than the {} it needs: {}; probe there, or correct the leading-edge "
+      "zone",
+      map.least_points, text);
+}
+
+/// What happened, and what to do. `seen`: how many points it is about.
+class Texts {
+ public:
+  Texts(const Result& result, const LocalizerConfig& config, const StreamEvidence& stream)
+      : result_(result), config_(config), stream_(stream), counts_(counts_of(result)) {}
+
+  [[nodiscard]] std::string of(Reason reason) const {
+    switch (reason) {
+      case Reason::not_converged:
+        return "the fit has not come to rest at an optimum; check that design, units and start belong to these points, "
+               "or fit with the mode least_squares";
+      case Reason::underdetermined:
+        return fmt::format(
+            "{} of {} free degrees of freedom follow from the {} points that count; probe more points, spread over both "
+            "sides and the whole length of the blade",
+            result_.details->determined, result_.details->free, result_.all.count);
+      case Reason::unproven:
+        return fmt::format("{} feet could not be proven the nearest; measure these points again or leave them out",
+                           result_.details->unproven);
+      case Reason::points_lost:
+        return lost_text(stream_);
+      case Reason::points_refused:
+        return fmt::format("{} points, the first of them number {}, cannot be used: no numbers, or over a thousand half sizes of the "
+            "blade away; probe them again",
+                           stream_.refused.size(), stream_.refused.front());
+      case Reason::zone_not_probed:
+        return zone_text(zones_of(result_, config_.tolerance), config_.tolerance);
+      case Reason::pending:
+        return fmt::format(
+            "{} points are not determined well enough to be judged; probe more points near them and over the whole blade",
+            counts_.pending);
+      case Reason::undecided:
+        return fmt::format(
+            "{} points are nearer to their tolerance than the expanded uncertainty; measure them more accurately or "
+            "probe more points",
+            counts_.undecided);
+      case Reason::unfinished:
+        return "the session ended before the machine said that its program is finished; run it again with the same "
+               "session folder to go on";
+      default:
+        return std::string(word_of(reason));
+    }
+  }
+
+ private:
+  const Result& result_;
+  const LocalizerConfig& config_;
+  const StreamEvidence& stream_;
+  Counts counts_;
+};
+
+BladeEvidence evidence_of(const Result& result, const LocalizerConfig& config, const StreamEvidence& stream) {
+  const Counts counts = counts_of(result);
+  return {.converged = result.status == word_of(FitStatus::converged),
+          .infeasible = result.status == word_of(FitStatus::infeasible),
+          .determined = result.details->determined,
+          .free = result.details->free,
+          .unproven = result.details->unproven,
+          .judged = sets_tolerance(config.tolerance),
+          .out = counts.out,
+          .pending = counts.pending,
+          .undecided = counts.undecided,
+          .lost = records_in(stream.lost) + (stream.lost_unnumbered ? 1U : 0U),
+          .refused = static_cast<std::uint32_t>(stream.refused.size()),
+          .zones_missed = zones_of(result, config.tolerance).missed(),
+          .finished = stream.finished,
+          .doubts = result.verdict.codes()};
+}
+
+void take_back_judgement(Result& result) {
+  for (ResultPoint& point : result.points) {
+    if (point.state == PointState::rejected) continue;
+    point.state = PointState::pending;
+    point.action = Action::none;
+  }
+}
+
+}  // namespace
+
+void judge(Result& result, const LocalizerConfig& config, const StreamEvidence& stream) {
+  const BladeVerdict verdict = judge_blade(evidence_of(result, config, stream));
+  const Texts texts(result, config, stream);
+  const Reasons told = result.verdict.codes();
+  for (std::size_t k = 0; k < kReasonWords.size(); ++k) {
+    const auto reason = static_cast<Reason>(k);
+    if (verdict.reasons.has(reason) && !told.has(reason)) result.verdict.reasons.push_back({reason, texts.of(reason)});
+  }
+  result.verdict.state = verdict.state;
+  result.verdict.lost = stream.lost;
+  result.verdict.decision = config.decision.rule;
+  result.verdict.coverage_factor = config.decision.coverage_factor;
+  if (!verdict.fit_decided()) take_back_judgement(result);
+}
+
+}  // namespace bladefit
