@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scratch=$PWD/build/core_only  # always the same, so that ccache knows the files again
+scratch=$PWD/build/core_only
 rm -rf "$scratch"
 
 # What the rest of the house is built with cannot be found: to ask for it ends the configuration.
@@ -19,7 +19,7 @@ mkdir -p "$scratch/tree"
 cp -r CMakeLists.txt CMakePresets.json core firmware_bridge "$scratch/tree"
 rm -r "$scratch/tree/firmware_bridge/host"
 cd "$scratch/tree"
-cmake --preset core -B "$scratch/build" "${without[@]}" >"$scratch/log" 2>&1 || { cat "$scratch/log" && exit 1; }
+cmake --preset core -B "$scratch/build" -DCMAKE_BUILD_TYPE=Debug "${without[@]}" >"$scratch/log" 2>&1 || { cat "$scratch/log" && exit 1; }
 cmake --build "$scratch/build" --target bladefit >"$scratch/log" 2>&1 || { cat "$scratch/log" && exit 1; }
 archives=("$scratch/build/firmware_bridge/libbladefit.a" "$scratch/build/core/libbladefit_core.a")
 

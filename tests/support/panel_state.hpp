@@ -31,6 +31,9 @@ inline PanelState known_state() {
   state.push_latency_us = 4.9F;
   state.heartbeat = 51;
   state.determined = 6;
+  state.fit_determined = true;
+  state.verdict = BladeState::out_of_tolerance;
+  state.reasons = kReasonPointsMissing;
   state.has_extension = true;
   for (std::size_t place = 0; place < kPanelPlaces; ++place) {
     const auto number = static_cast<float>(place);

@@ -39,8 +39,9 @@ TEST(ConfigDigest, EachFieldChangesIt) {
   const LocalizerConfig config = config_with_boxes();
   std::size_t fields = 0;
   for_each_field(config, [&fields](const char*, const auto&) { ++fields; });
-  // 16 fields beside start and tolerance, 12 numbers of the start pose, 4 of the tolerances, 5 a box.
-  EXPECT_EQ(fields, 16U + 12U + 4U + 2U * 5U);
+  // 16 fields beside start, tolerance and decision, 12 numbers of the start pose, 5 of the tolerances, 5 a box, 4 of the
+  // decision.
+  EXPECT_EQ(fields, 16U + 12U + 5U + 2U * 5U + 4U);
   std::set<std::uint64_t> digests{config_digest(config, 0)};
   std::set<std::string> names;
   for (std::size_t wanted = 0; wanted < fields; ++wanted) {
@@ -66,21 +67,21 @@ TEST(ConfigDigest, BoxesThatAreNotInUsePlayNoPart) {
   EXPECT_EQ(config_digest(config, 0), digest);
 }
 
-/// The digest of version 3 left out a field, so that it says nothing.
+/// A journal of version 4 does not tell of points that had no number when they were lost.
 TEST(ConfigDigest, JournalsOfTheVersionBeforeAreRefusedInOneLine) {
   std::string folder = "/tmp/bladefit_digest_XXXXXX";
   ASSERT_NE(::mkdtemp(folder.data()), nullptr);
   const std::string path = folder + "/journal.bin";
   JournalHeader header = make_journal_header({1, 2}, 3);
-  header.version = 3;
+  header.version = 4;
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(&header), sizeof header);
   JournalContent content;
   const Failure error = read_journal(path, content);
   EXPECT_EQ(error.kind, Failure::Kind::bad_input);
   EXPECT_FALSE(content.exists);
   EXPECT_EQ(error.message, path +
-                               ": journal of format version 3, whose check of the settings left out some of them; "
-                               "this program reads version 4: use the program that wrote it, or name another "
+                               ": journal of format version 4, which does not tell of lost points; "
+                               "this program reads version 5: use the program that wrote it, or name another "
                                "session folder");
   std::filesystem::remove_all(folder);
 }

@@ -96,13 +96,36 @@ TEST(BridgePanelMap, NamesThePointsThatProveTheSmallestTolerance) {
 
 TEST(BridgePanelMap, DiscreteInputsFollowTheState) {
   PanelState state;
-  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 4>{false, false, false, false}));
+  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 8>{false, false, false, false, false, true}));
   state.rest_out = 1;
-  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 4>{false, true, false, false}));
+  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 8>{false, true, false, false, false, true}));
   state.leading_edge_out = 1;
   state.alarms = kAlarmLinkLost;
-  state.determined = 6;
-  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 4>{true, true, true, true}));
+  state.fit_determined = true;
+  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 8>{true, true, true, true, false, true}));
+  state.verdict = BladeState::in_tolerance;
+  EXPECT_TRUE(encode_panel(state).discrete[4]);
+  EXPECT_FALSE(encode_panel(state).discrete[5]);
+}
+
+TEST(BridgePanelMap, VerdictReasonsAndTestNumbersStandInTheExtension) {
+  PanelState state;
+  state.verdict = BladeState::out_of_tolerance;
+  Reasons reasons;
+  for (const Reason reason : {Reason::points_refused, Reason::unfinished, Reason::mirrored}) reasons.add(reason);
+  state.reasons = reason_bits(reasons);
+  EXPECT_EQ(state.reasons, 8 + 32 + 128);
+  const PanelImage image = encode_panel(state);
+  EXPECT_EQ(image.extension[281 - kPlaceBase], 2);
+  EXPECT_EQ(image.extension[282 - kPlaceBase], 8 + 32 + 128);
+  EXPECT_EQ(image.extension[283 - kPlaceBase], 0x4640);  // 12345.678 as float32: 46 40 E6 B6
+  EXPECT_EQ(image.extension[284 - kPlaceBase], 0xE6B6);
+  EXPECT_EQ(image.extension[285 - kPlaceBase], 0x1234);
+  EXPECT_EQ(image.extension[286 - kPlaceBase], 0x5678);
+  PanelState read;
+  ASSERT_TRUE(decode_panel(image.registers, image.extension, read));
+  EXPECT_EQ(read.verdict, state.verdict);
+  EXPECT_EQ(read.reasons, state.reasons);
 }
 
 TEST(BridgePanelMap, ReadsBackWhatItWrites) {
@@ -129,18 +152,18 @@ Bytes answer(const Bytes& request, bool commands_enabled = false) {
 TEST(BridgePanelProtocol, AnswersReadsInsideTheMapOnly) {
   EXPECT_EQ(answer({4, 0, 0, 0, 2}), (Bytes{4, 4, 0, 1, 0, 3}));
   EXPECT_EQ(answer({4, 0, 0, 0, 92}).size(), 2U + 2 * 92);
-  EXPECT_EQ(answer({4, 0, 200, 0, 81}).size(), 2U + 2 * 81);
-  EXPECT_EQ(answer({2, 0, 0, 0, 4}), (Bytes{2, 1, 0b1111}));
+  EXPECT_EQ(answer({4, 0, 200, 0, 87}).size(), 2U + 2 * 87);
+  EXPECT_EQ(answer({2, 0, 0, 0, 8}), (Bytes{2, 1, 0b100111}));
   EXPECT_EQ(answer({2, 0, 2, 0, 1}), (Bytes{2, 1, 1}));
   EXPECT_EQ(answer({4, 0, 91, 0, 2}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0, 92, 0, 1}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0, 199, 0, 1}), (Bytes{0x84, 2}));
-  EXPECT_EQ(answer({4, 0, 200, 0, 82}), (Bytes{0x84, 2}));
+  EXPECT_EQ(answer({4, 0, 200, 0, 88}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0xFF, 0xFF, 0, 1}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0, 0, 0, 0}), (Bytes{0x84, 3}));
   EXPECT_EQ(answer({4, 0, 0, 0, 126}), (Bytes{0x84, 3}));
   EXPECT_EQ(answer({4, 0, 0, 0}), (Bytes{0x84, 3}));
-  EXPECT_EQ(answer({2, 0, 1, 0, 4}), (Bytes{0x82, 2}));
+  EXPECT_EQ(answer({2, 0, 1, 0, 8}), (Bytes{0x82, 2}));
 }
 
 TEST(BridgePanelProtocol, RefusesWritesAndForeignFunctions) {

@@ -96,9 +96,9 @@ TEST(BridgePanelServer, GivesEveryRegisterToLibmodbus) {
   const Context context = connected(panel.port());
   ASSERT_TRUE(context);
   EXPECT_TRUE(reads_the_map(context.get()));
-  std::array<std::uint8_t, 4> inputs{};
-  ASSERT_EQ(modbus_read_input_bits(context.get(), 0, 4, inputs.data()), 4);
-  EXPECT_EQ(inputs, (std::array<std::uint8_t, 4>{1, 1, 1, 1}));
+  std::array<std::uint8_t, 8> inputs{};
+  ASSERT_EQ(modbus_read_input_bits(context.get(), 0, 8, inputs.data()), 8);
+  EXPECT_EQ(inputs, (std::array<std::uint8_t, 8>{1, 1, 1, 1, 0, 0, 0, 0}));
   std::uint16_t word = 0;
   EXPECT_EQ(modbus_read_input_registers(context.get(), 92, 1, &word), -1);
   EXPECT_EQ(errno, EMBXILADD);

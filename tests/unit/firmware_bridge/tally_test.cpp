@@ -17,6 +17,19 @@ Verdict verdict(std::uint32_t sequence, PointState state, Region region = Region
   return made;
 }
 
+/// One zone that holds every foot of patch 0, and tolerances everywhere.
+ToleranceMap all_judged() {
+  ToleranceMap map;
+  map.box_count = 1;
+  map.leading_edge_mm = map.rest_mm = 0.1;
+  return map;
+}
+
+std::uint32_t zone_points(const Tally& tally) {
+  return static_cast<std::uint32_t>(
+      std::ranges::count_if(tally.verdicts(), [](const Verdict& v) { return is_judged(v.state); }));
+}
+
 TallyCounts counted_anew(const Tally& tally) {
   TallyCounts counts;
   for (const Verdict& verdict : tally.verdicts()) {
@@ -25,6 +38,8 @@ TallyCounts counted_anew(const Tally& tally) {
       ++counts.rejected;
       continue;
     }
+    if (verdict.state == PointState::pending) ++counts.pending;
+    if (verdict.state == PointState::undecided) ++counts.undecided;
     const bool out = verdict.state == PointState::out;
     if (verdict.region == Region::leading_edge) {
       ++counts.leading_edge;
@@ -38,9 +53,10 @@ TallyCounts counted_anew(const Tally& tally) {
 
 TEST(BridgeTally, CountsAgreeWithCountingAnewForAnyRevisions) {
   std::mt19937 random(20240511);
-  Tally tally;
+  const ToleranceMap judged_everywhere = all_judged();
+  Tally tally(judged_everywhere);
   for (int step = 0; step < 3000; ++step) {
-    tally.accept(verdict(1 + static_cast<std::uint32_t>(random() % 200), static_cast<PointState>(random() % 4),
+    tally.accept(verdict(1 + static_cast<std::uint32_t>(random() % 200), static_cast<PointState>(random() % 5),
                          static_cast<Region>(random() % 2)));
     const TallyCounts expected = counted_anew(tally);
     const TallyCounts& counts = tally.counts();
@@ -49,13 +65,30 @@ TEST(BridgeTally, CountsAgreeWithCountingAnewForAnyRevisions) {
     ASSERT_EQ(counts.leading_edge_out, expected.leading_edge_out);
     ASSERT_EQ(counts.rest_out, expected.rest_out);
     ASSERT_EQ(counts.rejected, expected.rejected);
+    ASSERT_EQ(counts.pending, expected.pending);
+    ASSERT_EQ(counts.undecided, expected.undecided);
+    ASSERT_EQ(tally.zones().points(0), zone_points(tally));
     ASSERT_EQ(tally.leading_edge_out().size(), expected.leading_edge_out);
     ASSERT_TRUE(std::ranges::is_sorted(tally.verdicts(), {}, &Verdict::sequence));
   }
 }
 
+TEST(BridgeTally, TheWorstPointIsAJudgedOne) {
+  const ToleranceMap judged_everywhere = all_judged();
+  Tally tally(judged_everywhere);
+  EXPECT_EQ(tally.worst(Region::leading_edge), nullptr);
+  Verdict near = verdict(1, PointState::in), far = verdict(2, PointState::out), farther = verdict(3, PointState::pending);
+  near.foot.distance = 0.01;
+  far.foot.distance = -0.4;
+  farther.foot.distance = 5.0;
+  for (const Verdict& v : {near, far, farther}) tally.accept(v);
+  EXPECT_EQ(tally.worst(Region::leading_edge)->sequence, 2U);
+  EXPECT_EQ(tally.worst(Region::rest), nullptr);
+}
+
 TEST(BridgeTally, ListsLeadingEdgePointsInTheOrderInWhichTheyBecameOut) {
-  Tally tally;
+  const ToleranceMap judged_everywhere = all_judged();
+  Tally tally(judged_everywhere);
   for (const std::uint32_t sequence : {1U, 2U, 3U, 4U}) tally.accept(verdict(sequence, PointState::in));
   tally.accept(verdict(4, PointState::out));
   tally.accept(verdict(2, PointState::out));

@@ -52,9 +52,10 @@ TEST(ReportFormats, CsvHasALineAPointInTheUnitOfTheResult) {
   std::istringstream text(session.read("points.csv"));
   std::string line;
   std::getline(text, line);
-  EXPECT_EQ(line, "sequence,x_in,y_in,z_in,patch,u,v,kind,region,distance_in,tolerance_in,uncertainty_in,state,action");
+  EXPECT_EQ(line, "sequence,x_in,y_in,z_in,patch,u,v,kind,region,distance_in,tolerance_in,uncertainty_in,state,action,"
+            "expanded_uncertainty_in,distance_before_in");
   std::getline(text, line);
-  EXPECT_EQ(line, "1,1,-2,0.1,0,0.5,0.1,interior,leading_edge,0.02,0.01,0.0005,out,cut");
+  EXPECT_EQ(line, "1,1,-2,0.1,0,0.5,0.1,interior,leading_edge,0.02,0.01,0.0005,out,cut,0.001,0.05");
   EXPECT_EQ(std::count(std::istreambuf_iterator<char>(text), {}, '\n'), 4);
 }
 
@@ -109,17 +110,16 @@ TEST(ReportFormats, NamesOfTheSessionCannotBecomeMarkup) {
   EXPECT_TRUE(contains(page, "&lt;b&gt;converged"));
 }
 
-TEST(ReportFormats, HeadlineFollowsTheOutcome) {
+TEST(ReportFormats, HeadlineFollowsTheVerdict) {
   const std::vector<SessionPoint> good = {{1, "rest", 0.01, "in", "none"}};
-  EXPECT_TRUE(contains(SessionFolder(good).page(), "In tolerance: no point is out"));
-  const std::vector<SessionPoint> open = {{1, "rest", 0.01, "pending", "none"}};
-  EXPECT_TRUE(contains(SessionFolder(open).page(), "Not decided: the fit is not final"));
-  const SessionFolder unjudged(good);
-  unjudged.write("verdicts.csv", testing::replaced(unjudged.read("verdicts.csv"), ",0.254,", ",inf,"));
-  EXPECT_TRUE(contains(unjudged.page(), "Not judged: no tolerance was set"));
-  const SessionFolder unsettled(good);
-  unsettled.write("result.json", testing::replaced(unsettled.read("result.json"), "converged", "not_converged"));
-  EXPECT_TRUE(contains(unsettled.page(), "Not decided: the fit is not final"));
+  const SessionFolder session(good);
+  EXPECT_TRUE(contains(session.page(), "In tolerance: every point is within its tolerance"));
+  session.judge(testing::verdict_of_blade("not_judged"));
+  EXPECT_TRUE(contains(session.page(), "Not judged: no tolerance was set"));
+  session.judge(testing::verdict_of_blade("not_decided", "points_lost", "points 3 to 7 never arrived; probe them again"));
+  EXPECT_TRUE(contains(session.page(), "Not decided: points 3 to 7 never arrived"));
+  session.judge(testing::verdict_of_blade("out_of_tolerance"));
+  EXPECT_TRUE(contains(session.page(), "Out of tolerance: no pose brings all points within their tolerances"));
 }
 
 TEST(ReportFormats, SessionsOfOnePointAndOfManyPatchesAreDrawn) {

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "firmware_bridge/host/journal/journal.hpp"
@@ -32,7 +34,19 @@ inline std::vector<SessionPoint> some_points() {
           {7, "rest", -0.05, "pending", "none"}};
 }
 
+inline nlohmann::json verdict_of_blade(const char* state, const char* code = "", const char* text = "") {
+  nlohmann::json reasons = nlohmann::json::array();
+  if (*code != '\0') reasons.push_back({{"code", code}, {"text", text}});
+  return {{"state", state},
+          {"reasons", reasons},
+          {"lost", nlohmann::json::array()},
+          {"decision", "simple"},
+          {"coverage_factor", 2.0}};
+}
+
+/// Out of tolerance where a point is out, else in tolerance.
 inline nlohmann::json result_of_points(const std::vector<SessionPoint>& points) {
+  const auto out = [](const SessionPoint& point) { return std::string_view(point.state) == "out"; };
   nlohmann::json list = nlohmann::json::array();
   for (const SessionPoint& point : points) {
     list.push_back({{"index", point.sequence - 1}, {"state", point.state}, {"distance", point.distance_mm / 25.4}});
@@ -49,15 +63,17 @@ inline nlohmann::json result_of_points(const std::vector<SessionPoint>& points) 
   result["regions"] = {{"leading_edge", sums}, {"rest", sums}};
   result["regions"]["leading_edge"]["boxes"] = {{{"patch", 0}, {"u", {0.4, 0.6}}, {"v", {0.0, 1.0}}}};
   result["points"] = list;
+  result["verdict"] = verdict_of_blade(std::ranges::any_of(points, out) ? "out_of_tolerance" : "in_tolerance");
   return result;
 }
 
 inline std::string verdicts_of_points(const std::vector<SessionPoint>& points) {
-  std::string text = "sequence,patch,u,v,kind,region,distance_mm,tolerance_mm,uncertainty_mm,state,action,x,y,z\n";
+  std::string text = "sequence,patch,u,v,kind,region,distance_mm,tolerance_mm,uncertainty_mm,state,action,x,y,z,"
+                     "expanded_uncertainty_mm,distance_before_mm\n";
   for (const SessionPoint& point : points) {
     text += std::to_string(point.sequence) + ",0,0.5,0." + std::to_string(point.sequence) + ",interior," +
             point.region + "," + std::to_string(point.distance_mm) + ",0.254,0.0127," + point.state + "," +
-            point.action + ",25.4,-50.8,2.54\n";
+            point.action + ",25.4,-50.8,2.54,0.0254,1.27\n";
   }
   return text;
 }
@@ -102,6 +118,13 @@ class SessionFolder {
         "cd '" + folder_.path().string() + "' && '" BLADEFIT_COMMAND "' report " + arguments + " > out.txt 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  /// Puts another verdict into result.json.
+  void judge(const nlohmann::json& verdict) const {
+    nlohmann::json result = nlohmann::json::parse(read("result.json"));
+    result["verdict"] = verdict;
+    write("result.json", result.dump(1) + "\n");
   }
 
   /// The page of the session; a failure where there is none.
