@@ -26,9 +26,17 @@ Object* placed(std::byte*& place, std::size_t count) {
   return first;
 }
 
+/// The pose is at rest: at the optimum over all points, or while they come near enough to it not to change a verdict.
+bool settled(const LocalizerParts& p) {
+  if (p.refinement.phase() == RefinementPhase::done) return true;
+  if (p.plan.bounded()) return false;  // a later point that does not fit moves its pose far
+  const ToleranceMap& map = p.problem.config.tolerance;
+  return p.sums.moved_to(p.estimate.pose()) <= tuning::kRestShare * std::min(map.leading_edge_mm, map.rest_mm);
+}
+
 Evidence evidence_of(const LocalizerParts& p) {
   const std::uint32_t spare = 6 - p.estimate.determination().locked + tuning::kLeastSpare;
-  return {p.estimate, p.sums.model().count >= (p.stream.concluded ? spare : tuning::kLeastJudged)};
+  return {p.estimate, p.sums.model().count >= (p.stream.concluded ? spare : tuning::kLeastJudged), settled(p)};
 }
 
 Status check(const LocalizerParts& p, const ProbePoint& point) {

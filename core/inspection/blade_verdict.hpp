@@ -85,9 +85,6 @@ struct BladeVerdict {
 /// whatever was not seen leaves the blade not decided. All reasons that hold are told with any state.
 [[nodiscard]] BladeVerdict judge_blade(const BladeEvidence& evidence);
 
-/// Whether a point in this state was judged.
-[[nodiscard]] constexpr bool is_judged(PointState state) { return state == PointState::in || state == PointState::out; }
-
 /// How many points each zone of the leading edge has that were judged.
 class ZoneCount {
  public:

@@ -28,6 +28,9 @@ struct Verdict {
   std::uint32_t revision = 0;    ///< fit revision it was judged at
 };
 
+/// Whether a point in this state was judged.
+[[nodiscard]] constexpr bool is_judged(PointState state) { return state == PointState::in || state == PointState::out; }
+
 /// False for a record that the localizer could not use, such as one with a number that is not finite.
 [[nodiscard]] inline bool has_foot(const Verdict& verdict) { return !verdict.foot.normal.isZero(); }
 

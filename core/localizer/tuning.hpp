@@ -47,6 +47,10 @@ inline constexpr double kPendingShare = 0.1;
 /// many more than there are free degrees of freedom are needed.
 inline constexpr std::uint32_t kLeastJudged = 12, kLeastSpare = 3;
 
+/// The pose is at rest while it has moved, since the sums in use were begun, by no more than this share of the tightest
+/// tolerance.
+inline constexpr double kRestShare = 0.5;
+
 // Scale of a robust loss
 /// Standard deviation of normal errors over the median of their size.
 inline constexpr double kMedianToScale = 1.4826;

@@ -40,10 +40,11 @@ void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   point.expanded = problem_.config.decision.expanded(uncertainty.standard, length);
   const double pending_above =
       tuning::kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : problem_.config.determined_mm);
+  if (!evidence.settled && is_judged(point.state) && !selection_.left_out(point, foot)) return count(point, +1);
   point.action = Action::none;
   if (selection_.left_out(point, foot)) {
     point.state = PointState::rejected;
-  } else if (uncertainty.undetermined > pending_above || !evidence.enough) {
+  } else if (uncertainty.undetermined > pending_above || !evidence.enough || !evidence.settled) {
     point.state = PointState::pending;
   } else {
     point.state = decide(problem_.config.decision.rule, {foot.distance, point.tolerance, point.uncertainty,

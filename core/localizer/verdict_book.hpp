@@ -8,7 +8,8 @@ namespace bladefit {
 /// What verdicts are made from beside the point.
 struct Evidence {
   const PoseEstimate& estimate;
-  bool enough;  ///< points to judge any
+  bool enough;   ///< points to judge any
+  bool settled;  ///< the pose is at rest: while it is not, points keep the verdicts that they had when it was
 };
 
 /// Judges points, counts the verdicts, and keeps those that have changed since they were reported.

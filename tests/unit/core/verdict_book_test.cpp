@@ -48,7 +48,7 @@ struct Desk {
     minimum.sigma = 1e-3;
     estimate.know(minimum);
   }
-  [[nodiscard]] Evidence evidence(bool enough = true) const { return {estimate, enough}; }
+  [[nodiscard]] Evidence evidence(bool enough = true, bool settled = true) const { return {estimate, enough, settled}; }
   void see(std::uint32_t index, const Foot& foot) { store[index].foot = foot; }
   void judge(std::uint32_t index, const Foot& foot) {
     see(index, foot);

@@ -153,7 +153,7 @@ TEST(BridgePanelProtocol, AnswersReadsInsideTheMapOnly) {
   EXPECT_EQ(answer({4, 0, 0, 0, 2}), (Bytes{4, 4, 0, 1, 0, 3}));
   EXPECT_EQ(answer({4, 0, 0, 0, 92}).size(), 2U + 2 * 92);
   EXPECT_EQ(answer({4, 0, 200, 0, 87}).size(), 2U + 2 * 87);
-  EXPECT_EQ(answer({2, 0, 0, 0, 8}), (Bytes{2, 1, 0b100111}));
+  EXPECT_EQ(answer({2, 0, 0, 0, 8}), (Bytes{2, 1, 0b1111}));
   EXPECT_EQ(answer({2, 0, 2, 0, 1}), (Bytes{2, 1, 1}));
   EXPECT_EQ(answer({4, 0, 91, 0, 2}), (Bytes{0x84, 2}));
   EXPECT_EQ(answer({4, 0, 92, 0, 1}), (Bytes{0x84, 2}));

@@ -86,7 +86,7 @@ TEST(ReportRefusals, DamagedResult) {
       {"\"tolerance\": 0.01", "\"tolerance\": \"x\"", {"field regions.leading_edge.tolerance is not a number"}},
       {"\"patch\": 0", "\"patch\": -1", {"field regions.leading_edge.boxes[0].patch is not a whole number"}},
       {"\"covariance\": null", "\"covariance\": [1]", {"field covariance has 1 elements where 6 belong"}},
-      {"\"state\": \"out\"", "\"state\": \"lost\"", {"field points[0].state is no state"}},
+      {"\"state\": \"out\"", "\"state\": \"lost\"", {"field points[0].state is none of the words"}},
       {"\"translation\": [", "\"translation\": [[],", {"field pose.translation has 4 elements where 3 belong"}},
   };
   for (const Damage& damage : table) {
