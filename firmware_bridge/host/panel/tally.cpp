@@ -56,10 +56,11 @@ void Tally::follow_leading_edge(std::uint32_t sequence, bool was_out, bool is_ou
   }
 }
 
-const Verdict* Tally::worst(Region region) const {
+const Verdict* Tally::worst(Region region, bool with_pending) const {
   const Verdict* worst = nullptr;
   for (const Verdict& verdict : verdicts_) {
-    if (verdict.region != region || !is_judged(verdict.state)) continue;
+    if (verdict.region != region || verdict.state == PointState::rejected) continue;
+    if (verdict.state == PointState::pending && !with_pending) continue;
     if (worst == nullptr || std::abs(verdict.foot.distance) > std::abs(worst->foot.distance)) worst = &verdict;
   }
   return worst;

@@ -34,9 +34,9 @@ class Tally {
 
   [[nodiscard]] const ZoneCount& zones() const { return zones_; }
 
-  /// The judged point of a region that is farthest off, by the same verdicts as the counts; null where there is none.
-  /// Cost: linear.
-  [[nodiscard]] const Verdict* worst(Region region) const;
+  /// The point of a region that is farthest off, by the same verdicts as the counts; null where there is none. Pending
+  /// points, whose distances are old while the pose moves, take part where asked for. Cost: linear.
+  [[nodiscard]] const Verdict* worst(Region region, bool with_pending) const;
 
   /// Verdicts in rising order of sequence.
   [[nodiscard]] std::span<const Verdict> verdicts() const { return verdicts_; }

@@ -73,17 +73,18 @@ TEST(BridgeTally, CountsAgreeWithCountingAnewForAnyRevisions) {
   }
 }
 
-TEST(BridgeTally, TheWorstPointIsAJudgedOne) {
+TEST(BridgeTally, TheWorstPointIsAJudgedOneUnlessPendingOnesAreAskedFor) {
   const ToleranceMap judged_everywhere = all_judged();
   Tally tally(judged_everywhere);
-  EXPECT_EQ(tally.worst(Region::leading_edge), nullptr);
+  EXPECT_EQ(tally.worst(Region::leading_edge, true), nullptr);
   Verdict near = verdict(1, PointState::in), far = verdict(2, PointState::out), farther = verdict(3, PointState::pending);
   near.foot.distance = 0.01;
   far.foot.distance = -0.4;
   farther.foot.distance = 5.0;
   for (const Verdict& v : {near, far, farther}) tally.accept(v);
-  EXPECT_EQ(tally.worst(Region::leading_edge)->sequence, 2U);
-  EXPECT_EQ(tally.worst(Region::rest), nullptr);
+  EXPECT_EQ(tally.worst(Region::leading_edge, false)->sequence, 2U);
+  EXPECT_EQ(tally.worst(Region::leading_edge, true)->sequence, 3U);
+  EXPECT_EQ(tally.worst(Region::rest, true), nullptr);
 }
 
 TEST(BridgeTally, ListsLeadingEdgePointsInTheOrderInWhichTheyBecameOut) {
