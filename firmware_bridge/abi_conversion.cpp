@@ -101,6 +101,9 @@ bladefit_verdict translate_verdict(const Verdict& from) {
   to.distance_mm = from.foot.distance;
   to.tolerance_mm = from.tolerance_mm;
   to.uncertainty_mm = from.uncertainty_mm;
+  to.beyond_mm = from.foot.beyond;
+  to.left_out = static_cast<std::uint32_t>(from.left_out);
+  to.fitted = from.fitted ? 1 : 0;
   return to;
 }
 

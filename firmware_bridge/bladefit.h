@@ -30,7 +30,7 @@ extern "C" {
 #endif
 
 /* Changes when a struct or the meaning of a call changes. Compare with bladefit_abi_version(). */
-#define BLADEFIT_ABI_VERSION 1u
+#define BLADEFIT_ABI_VERSION 2u
 
 /* Alignment of the memory given to bladefit_init() [bytes]. */
 #define BLADEFIT_MEMORY_ALIGNMENT 64u
@@ -87,6 +87,11 @@ enum { BLADEFIT_INTERIOR = 0, BLADEFIT_EDGE = 1, BLADEFIT_CORNER = 2 };         
 enum { BLADEFIT_REST = 0, BLADEFIT_LEADING_EDGE = 1 };                                   /* region */
 enum { BLADEFIT_PENDING = 0, BLADEFIT_IN = 1, BLADEFIT_OUT = 2, BLADEFIT_REJECTED = 3 }; /* state */
 enum { BLADEFIT_NO_ACTION = 0, BLADEFIT_CUT = 1, BLADEFIT_WELD = 2 };                    /* action */
+enum {
+  BLADEFIT_LEFT_OUT_NONE = 0,
+  BLADEFIT_LEFT_OUT_WINDOW = 1, /* the foot at the start pose is outside the window */
+  BLADEFIT_LEFT_OUT_EDGE = 2    /* the foot is on an outer edge, not beyond it by more than the tolerance */
+};                              /* left_out */
 enum {
   BLADEFIT_FIT_UNDERDETERMINED = 0,
   BLADEFIT_FIT_TRACKING = 1,
@@ -155,7 +160,7 @@ typedef struct bladefit_verdict {
   uint32_t kind;
   uint32_t region;
   uint32_t state;
-  uint32_t action;       /* where the state is BLADEFIT_OUT */
+  uint32_t action;       /* where the state is BLADEFIT_OUT; NONE there: beyond an outer edge of the design */
   uint32_t fit_revision; /* at which the point was judged */
   double u, v;           /* 0..1 */
   double foot[3];        /* nearest point of the design [mm, design coordinates] */
@@ -163,6 +168,9 @@ typedef struct bladefit_verdict {
   double distance_mm;    /* > 0 excess material, < 0 missing material, less the probe radius */
   double tolerance_mm;   /* INFINITY = not judged */
   double uncertainty_mm; /* standard uncertainty of the distance that comes from the pose */
+  double beyond_mm;      /* how far the point lies beyond an outer edge of the design, along the surface */
+  uint32_t left_out;     /* where the state is BLADEFIT_REJECTED: BLADEFIT_LEFT_OUT_... */
+  uint32_t fitted;       /* 1: counts in the fit, which is another thing than being judged */
 } bladefit_verdict;
 
 typedef struct bladefit_region_report {

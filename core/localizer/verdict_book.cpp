@@ -27,6 +27,25 @@ void VerdictBook::assign_region(StoredPoint& point) {
   count(point, +1);
 }
 
+/// What the foot says of the point, the tolerance there widened by rounding. Beyond an outer edge the design holds no
+/// surface: neither cut nor weld is proven there, and what lies between two outer edges that face each other, as on a
+/// blunt trailing edge, is not beyond. A point that counts in the fit is judged by its distance like any other.
+VerdictBook::Finding VerdictBook::finding_of(const StoredPoint& point) const {
+  const Foot& foot = point.foot;
+  const double bound = point.tolerance + tuning::kTouchingBound * problem_.frame.length;
+  const Action by_sign = foot.distance > 0.0 ? Action::cut : Action::weld;
+  const bool far = std::abs(foot.distance) > bound;
+  if (point.outside_window) return {PointState::rejected, Action::none, LeftOut::window};
+  if (foot.border == FootBorder::none || foot.border == FootBorder::joint)
+    return far ? Finding{PointState::out, by_sign} : Finding{PointState::in};
+  if (foot.beyond > bound) return {PointState::out, Action::none};
+  // What is left of the distance at the end of a joint leads away from that.
+  const double aside = std::sqrt(std::max(0.0, foot.distance * foot.distance - foot.beyond * foot.beyond));
+  if (foot.border == FootBorder::joint_end && aside > bound) return {PointState::out, by_sign};
+  if (!point.fitted) return {PointState::rejected, Action::none, LeftOut::edge};
+  return {far ? PointState::out : PointState::in};
+}
+
 void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   if (point.tolerance != 0.0) count(point, -1);
   const Foot& foot = point.foot;
@@ -36,19 +55,15 @@ void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   }
   const PoseEstimate::DistanceUncertainty uncertainty = evidence.estimate.uncertainty_of(point.position, foot);
   point.uncertainty = uncertainty.standard;
+  point.fitted = !selection_.left_out(point, foot);
   const double pending_above =
       tuning::kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : problem_.config.determined_mm);
-  point.action = Action::none;
-  if (selection_.left_out(point, foot)) {
-    point.state = PointState::rejected;
-  } else if (uncertainty.undetermined > pending_above || !evidence.enough) {
-    point.state = PointState::pending;
-  } else if (std::abs(foot.distance) > point.tolerance + tuning::kTouchingBound * problem_.frame.length) {
-    point.state = PointState::out;
-    point.action = foot.distance > 0.0 ? Action::cut : Action::weld;
-  } else {
-    point.state = PointState::in;
-  }
+  Finding finding = finding_of(point);
+  const bool open = uncertainty.undetermined > pending_above || !evidence.enough;
+  if (open && finding.state != PointState::rejected) finding = {PointState::pending};
+  point.state = finding.state;
+  point.action = finding.action;
+  point.left_out = finding.left_out;
   count(point, +1);
 }
 
@@ -91,6 +106,8 @@ Verdict verdict_of(const StoredPoint& point) {
   verdict.uncertainty_mm = point.uncertainty;
   verdict.state = point.state;
   verdict.action = point.action;
+  verdict.left_out = point.left_out;
+  verdict.fitted = point.fitted;
   verdict.revision = point.revision;
   return verdict;
 }

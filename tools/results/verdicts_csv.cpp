@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include "drivers/text/text_number.hpp"
@@ -15,9 +17,11 @@
 namespace bladefit {
 namespace {
 
-constexpr std::array<std::string_view, 14> kColumns = {
-    "sequence",     "patch",          "u",     "v",      "kind", "region", "distance_mm",
-    "tolerance_mm", "uncertainty_mm", "state", "action", "x",    "y",      "z"};
+constexpr std::array<std::string_view, 16> kColumns = {
+    "sequence",       "patch", "u",      "v", "kind", "region", "distance_mm", "tolerance_mm",
+    "uncertainty_mm", "state", "action", "x", "y",    "z",      "left_out",    "beyond_mm"};
+/// Files of earlier versions end before the last two.
+constexpr std::size_t kOldColumns = 14;
 constexpr std::size_t kQuotedCharacters = 40;
 constexpr const char* kRemedy = "the file is damaged or foreign; run the session again with the same --session";
 
@@ -26,6 +30,7 @@ struct Row {
   const std::string& path;
   std::size_t line = 0;
   std::array<std::string_view, kColumns.size()> cells{};
+  std::size_t count = 0;  ///< cells that the line has
 
   [[noreturn]] void refuse(const std::string& what) const {
     throw ToolError(fmt::format("{}:{}: {}; {}", path, line, what, kRemedy));
@@ -69,17 +74,24 @@ struct Row {
   }
 };
 
-Row cut(const std::string& path, std::size_t line, std::string_view text) {
+/// `count`: columns that the first line has named; 0: this is the first line.
+Row cut(const std::string& path, std::size_t line, std::string_view text, std::size_t count) {
   Row row{path, line};
-  std::size_t count = 0;
   while (true) {
     const std::size_t comma = text.find(',');
-    if (count < row.cells.size()) row.cells.at(count) = text.substr(0, comma);
-    ++count;
+    if (row.count < row.cells.size()) row.cells.at(row.count) = text.substr(0, comma);
+    ++row.count;
     if (comma == std::string_view::npos) break;
     text.remove_prefix(comma + 1);
   }
-  if (count != row.cells.size()) row.refuse(fmt::format("{} columns where {} belong", count, row.cells.size()));
+  if (count == 0) {
+    const auto named = std::span(row.cells).first(std::min(row.count, row.cells.size()));
+    const bool known = (row.count == kColumns.size() || row.count == kOldColumns) &&
+                       std::ranges::equal(named, std::span(kColumns).first(named.size()));
+    if (!known) row.refuse("these are not the columns of a verdicts.csv");
+  } else if (row.count != count) {
+    row.refuse(fmt::format("{} columns where {} belong", row.count, count));
+  }
   return row;
 }
 
@@ -97,6 +109,9 @@ ResultPoint point_of(const Row& row) {
   point.state = row.one_of<PointState>(9, kStateWords);
   point.action = row.one_of<Action>(10, kActionWords);
   for (std::size_t axis = 0; axis < 3; ++axis) point.position.at(axis) = row.finite(11 + axis);
+  if (row.count == kOldColumns) return point;
+  point.left_out = row.one_of<LeftOut>(14, kLeftOutWords);
+  point.beyond = row.bound(15);
   return point;
 }
 
@@ -105,23 +120,24 @@ ResultPoint point_of(const Row& row) {
 std::string verdicts_csv(const std::vector<ResultPoint>& points) {
   std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const ResultPoint& point : points) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u, point.v,
-                        word_of(point.kind), word_of(point.region), point.distance, point.tolerance, point.uncertainty,
-                        word_of(point.state), word_of(point.action), point.position[0], point.position[1],
-                        point.position[2]);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u,
+                        point.v, word_of(point.kind), word_of(point.region), point.distance, point.tolerance,
+                        point.uncertainty, word_of(point.state), word_of(point.action), point.position[0],
+                        point.position[1], point.position[2], word_of(point.left_out), point.beyond);
   }
   return text;
 }
 
 std::vector<ResultPoint> parse_verdicts(const std::string& path, std::string_view text) {
   std::vector<ResultPoint> points;
+  std::size_t columns = 0;
   for (std::size_t line = 1; !text.empty() || line == 1; ++line) {
     const std::size_t end = text.find('\n');
-    const Row row = cut(path, line, text.substr(0, end));
+    const Row row = cut(path, line, text.substr(0, end), columns);
     if (end == std::string_view::npos) row.refuse("the line has no end");
     text.remove_prefix(end + 1);
     if (line == 1) {
-      if (row.cells != kColumns) row.refuse("these are not the columns of a verdicts.csv");
+      columns = row.count;
       continue;
     }
     points.push_back(point_of(row));
