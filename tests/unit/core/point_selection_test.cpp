@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/localizer_fixtures.hpp"
-#include "tests/unit/core/owned_parts.hpp"
+#include "tests/unit/core/verdict_desk.hpp"
 
 namespace bladefit::testing {
 namespace {
-
-constexpr double kOnEdgeOfBlade = 0.5, kOnRest = 0.1;  ///< u of feet in the box of the leading edge and outside of it
 
 FitProblem problem_with(EdgePolicy edges) {
   LocalizerConfig config = config_of(read_case("dtmb4119"), 10);

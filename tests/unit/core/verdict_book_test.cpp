@@ -4,77 +4,10 @@
 
 #include <random>
 
-#include "tests/support/localizer_fixtures.hpp"
-#include "tests/unit/core/owned_parts.hpp"
+#include "tests/unit/core/verdict_desk.hpp"
 
 namespace bladefit::testing {
 namespace {
-
-constexpr double kOnEdgeOfBlade = 0.5, kOnRest = 0.1;  ///< u of feet in the box of the leading edge and outside of it
-constexpr double kTight = 0.02, kWide = 0.2;           ///< their tolerances [mm]
-
-LocalizerConfig judged_config() {
-  LocalizerConfig config = config_of(read_case("dtmb4119"), 32);
-  config.tolerance.leading_edge_mm = kTight;
-  config.tolerance.rest_mm = kWide;
-  return config;
-}
-
-/// A book over a few stored points, and a pose that is as well known as a test wants it.
-struct Desk {
-  explicit Desk(std::uint32_t points, const LocalizerConfig& config = judged_config())
-      : problem(reference_design("dtmb4119").image(), config),
-        selection(problem),
-        estimate(problem),
-        store(points),
-        ring(points),
-        book(problem, selection) {
-    book.attach(ring.data(), points);
-    book.clear();
-    know_pose(Vec6::Zero());
-    for (std::uint32_t k = 1; k <= points; ++k) {
-      store.append(numbered(k));
-      see(k - 1, foot_at(kOnRest, 0.0));
-      book.judge_new(store[k - 1], evidence());
-    }
-  }
-
-  /// `open`: a direction that is not determined; 0: there is none.
-  void know_pose(const Vec6& open) {
-    Minimum minimum{};
-    minimum.determination.rank = open.isZero() ? 6 : 5;
-    minimum.determination.free_directions.col(0) = open;
-    minimum.covariance = Mat6::Identity();
-    minimum.sigma = 1e-3;
-    estimate.know(minimum);
-  }
-  [[nodiscard]] Evidence evidence(bool enough = true) const { return {estimate, enough}; }
-  void see(std::uint32_t index, const Foot& foot) { store[index].foot = foot; }
-  void judge(std::uint32_t index, const Foot& foot) {
-    see(index, foot);
-    book.judge_again(store, index, evidence());
-  }
-  /// State of a point with this foot.
-  [[nodiscard]] PointState state(const Foot& foot, bool enough = true) {
-    see(0, foot);
-    book.judge_new(store[0], evidence(enough));
-    return store[0].state;
-  }
-  /// Sequences of all revisions.
-  [[nodiscard]] std::vector<std::uint32_t> told() {
-    std::vector<std::uint32_t> out;
-    Verdict verdict;
-    while (book.next_revision(store, verdict)) out.push_back(verdict.sequence);
-    return out;
-  }
-
-  FitProblem problem;
-  PointSelection selection;
-  PoseEstimate estimate;
-  OwnedStore store;
-  std::vector<std::uint32_t> ring;
-  VerdictBook book;
-};
 
 using Numbers = std::vector<std::uint32_t>;
 
@@ -134,93 +67,6 @@ TEST(VerdictBook, RejectsAFootOnAnEdge) {
   EXPECT_EQ(desk.store[0].action, Action::none);
   EXPECT_EQ(desk.book.rejected(), 1U);
   EXPECT_EQ(desk.book.out(Region::rest), 0U);
-}
-
-Foot beyond_edge(double u, double distance, double beyond, FootBorder border = FootBorder::outer) {
-  Foot foot = foot_at(u, distance, border == FootBorder::outer ? FootKind::edge : FootKind::corner);
-  foot.border = border;
-  foot.beyond = beyond;
-  return foot;
-}
-
-TEST(VerdictBook, JudgesAFootOnAJointLikeAnyOther) {
-  Desk desk(1);
-  for (const double distance : {0.3, -0.3, 0.1}) {
-    Foot foot = foot_at(kOnRest, distance, FootKind::edge);
-    foot.border = FootBorder::joint;
-    EXPECT_EQ(desk.state(foot), std::abs(distance) > kWide ? PointState::out : PointState::in);
-    EXPECT_EQ(desk.store[0].action, distance > kWide ? Action::cut : distance < -kWide ? Action::weld : Action::none);
-    EXPECT_FALSE(verdict_of(desk.store[0]).fitted) << "being judged is one thing, to count in the fit another";
-  }
-}
-
-TEST(VerdictBook, FindsWhatLiesBeyondAnOuterEdgeOutWithNothingToDo) {
-  Desk desk(1);
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.3, 0.21)), PointState::out);
-  EXPECT_EQ(desk.store[0].action, Action::none);
-  EXPECT_EQ(desk.store[0].left_out, LeftOut::none);
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.3, 0.19)), PointState::rejected);
-  EXPECT_EQ(desk.store[0].left_out, LeftOut::edge);
-  EXPECT_EQ(desk.state(beyond_edge(kOnEdgeOfBlade, 0.3, 0.19)), PointState::out) << "the tolerance there counts";
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 5.0, 0.1)), PointState::rejected) << "across a blunt edge";
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.3, 0.21), false), PointState::pending);
-}
-
-TEST(VerdictBook, DoesNotFindAPointBeyondAnEdgeOutWhereNoToleranceIsSet) {
-  LocalizerConfig config = judged_config();
-  config.tolerance.rest_mm = std::numeric_limits<double>::infinity();
-  Desk desk(1, config);
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 50.0, 50.0)), PointState::rejected);
-}
-
-TEST(VerdictBook, JudgesAPointInFrontOfTheEndOfAJoint) {
-  Desk desk(1);
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.3, 0.1, FootBorder::joint_end)), PointState::out);
-  EXPECT_EQ(desk.store[0].action, Action::cut);
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.3, 0.25, FootBorder::joint_end)), PointState::out);
-  EXPECT_EQ(desk.store[0].action, Action::none);
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.19, 0.1, FootBorder::joint_end)), PointState::rejected);
-}
-
-TEST(VerdictBook, SaysWhyAPointIsRejected) {
-  Desk desk(1);
-  desk.store[0].outside_window = true;
-  EXPECT_EQ(desk.state(kHigh), PointState::rejected);
-  EXPECT_EQ(verdict_of(desk.store[0]).left_out, LeftOut::window);
-  EXPECT_FALSE(verdict_of(desk.store[0]).fitted);
-  desk.store[0].outside_window = false;
-  EXPECT_EQ(desk.state(kHigh), PointState::out);
-  EXPECT_EQ(verdict_of(desk.store[0]).left_out, LeftOut::none);
-  EXPECT_TRUE(verdict_of(desk.store[0]).fitted);
-}
-
-/// Where edges count, a point on one is judged by its distance.
-TEST(VerdictBook, JudgesAPointOnAnOuterEdgeThatCounts) {
-  LocalizerConfig config = judged_config();
-  config.edges = EdgePolicy::use;
-  Desk desk(1, config);
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.1, 0.1)), PointState::in);
-  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.3, 0.1)), PointState::out);
-  EXPECT_EQ(desk.store[0].action, Action::none) << "there is no surface to cut to";
-}
-
-/// What a refinement made of a point on the way says nothing of the point.
-TEST(VerdictBook, JudgesAPointThatStayedOutOfTheFitByItsFoot) {
-  Desk desk(2);
-  desk.selection.by_exits(desk.store);
-  desk.store[0].exits = tuning::kMostExits;
-  desk.judge(0, kLow);
-  EXPECT_EQ(desk.store[0].state, PointState::out);
-  EXPECT_EQ(desk.store[0].action, Action::weld);
-  EXPECT_FALSE(desk.store[0].fitted);
-  desk.selection.by_foot();
-  desk.see(0, beyond_edge(0.0, 0.1, 0.0));
-  desk.see(1, kGood);
-  desk.selection.hold(desk.store);
-  desk.judge(0, kGood);
-  EXPECT_EQ(desk.store[0].state, PointState::in) << "held out, but its foot is interior now";
-  desk.judge(1, beyond_edge(0.0, 0.1, 0.0));
-  EXPECT_EQ(desk.store[1].state, PointState::in) << "it counts, wherever its foot has gone";
 }
 
 TEST(VerdictBook, NeverFindsAPointOutWhereNoToleranceIsSet) {

@@ -17,7 +17,7 @@ constexpr double kNeighbourhood = 4.0;
 /// Surface is looked for so many gaps away, and is there where it is nearer to that place than this share of the way.
 constexpr double kWay = 3.0, kFarthest = 0.75;
 /// A blunt edge is no thicker than this [half diagonals].
-constexpr double kThickest = 0.03;
+constexpr double kThickest = 0.05;
 
 /// Parameters of a leaf within its patch.
 ParameterLimits limits_of(const Surface& surface, const ImageLeaf& leaf) {
