@@ -106,6 +106,9 @@ bladefit_verdict translate_verdict(const Verdict& from) {
   to.tolerance_mm = from.tolerance_mm;
   to.uncertainty_mm = from.uncertainty_mm;
   to.expanded_mm = from.expanded_mm;
+  to.beyond_mm = from.foot.beyond;
+  to.left_out = static_cast<std::uint32_t>(from.left_out);
+  to.fitted = from.fitted ? 1 : 0;
   return to;
 }
 

@@ -96,6 +96,11 @@ enum { BLADEFIT_SIMPLE = 0, BLADEFIT_GUARDED = 1 }; /* bladefit_config.decision:
                                                        with their expanded uncertainty (ISO 14253-1:2017) */
 enum { BLADEFIT_NO_ACTION = 0, BLADEFIT_CUT = 1, BLADEFIT_WELD = 2 };                    /* action */
 enum {
+  BLADEFIT_LEFT_OUT_NONE = 0,
+  BLADEFIT_LEFT_OUT_WINDOW = 1, /* the foot at the start pose is outside the window */
+  BLADEFIT_LEFT_OUT_EDGE = 2    /* the foot is on an outer edge, not beyond it by more than the tolerance */
+};                              /* left_out */
+enum {
   BLADEFIT_FIT_UNDERDETERMINED = 0,
   BLADEFIT_FIT_TRACKING = 1,
   BLADEFIT_FIT_CONVERGED = 2,
@@ -169,7 +174,7 @@ typedef struct bladefit_verdict {
   uint32_t kind;
   uint32_t region;
   uint32_t state;
-  uint32_t action;       /* where the state is BLADEFIT_OUT */
+  uint32_t action;       /* where the state is BLADEFIT_OUT; NONE there: beyond an outer edge of the design */
   uint32_t fit_revision; /* at which the point was judged */
   double u, v;           /* 0..1 */
   double foot[3];        /* nearest point of the design [mm, design coordinates] */
@@ -178,6 +183,9 @@ typedef struct bladefit_verdict {
   double tolerance_mm;   /* INFINITY = not judged */
   double uncertainty_mm; /* standard uncertainty of the distance that comes from the pose */
   double expanded_mm;    /* expanded uncertainty of the distance, the probe's part included where it is given */
+  double beyond_mm;      /* how far the point lies beyond an outer edge of the design, along the surface */
+  uint32_t left_out;     /* where the state is BLADEFIT_REJECTED: BLADEFIT_LEFT_OUT_... */
+  uint32_t fitted;       /* 1: counts in the fit, which is another thing than being judged */
 } bladefit_verdict;
 
 typedef struct bladefit_region_report {

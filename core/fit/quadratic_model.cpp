@@ -59,9 +59,10 @@ void add_surface_bend(const Projection& p, const Vec3& n, const Lever& lever, Ma
   add_outer(bend, -1.0 / det, l_v, k_uv * l_u + k_vv * l_v);
 }
 
-/// (I - n n' - t t' / (t.t - e.S_tt)) / |e| on an edge with tangent t; without t at a corner.
+/// (I - n n' - t t' / (t.t - e.S_tt)) / |e| on an edge with tangent t; without t at a corner. Where n points against e,
+/// the distance is negative, and so is this.
 void add_curve_bend(const Projection& p, const Vec3& n, const Lever& lever, Mat6& bend) {
-  const double inverse = 1.0 / p.offset.norm();
+  const double inverse = std::copysign(1.0 / p.offset.norm(), n.dot(p.offset));
   for (int k = 0; k < 3; ++k) {
     const Vec6 l = lever(Vec3::Unit(k));
     add_outer(bend, inverse, l, l);

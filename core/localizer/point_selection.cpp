@@ -4,7 +4,19 @@ namespace bladefit {
 
 void PointSelection::by_exits(PointStore& store) {
   rule_ = Rule::by_exits;
+  readmitted_ = false;
   for (std::uint32_t i = 0; i < store.size(); ++i) store[i].exits = 0;
+}
+
+bool PointSelection::readmit(PointStore& store) {
+  if (rule_ != Rule::by_exits || readmitted_) return false;
+  for (std::uint32_t i = 0; i < store.size(); ++i) {
+    StoredPoint& point = store[i];
+    if (point.exits < tuning::kMostExits || out_by_foot(point, point.foot)) continue;
+    point.exits = 0;
+    readmitted_ = true;
+  }
+  return readmitted_;
 }
 
 void PointSelection::hold(PointStore& store) {
@@ -14,8 +26,11 @@ void PointSelection::hold(PointStore& store) {
 
 bool PointSelection::left_out(const StoredPoint& point, const Foot& foot) const {
   if (rule_ == Rule::held) return point.held_out;
-  return point.outside_window || (rule_ == Rule::by_exits && point.exits >= tuning::kMostExits) ||
-         (foot.kind != FootKind::interior && problem_.config.edges == EdgePolicy::skip);
+  return (rule_ == Rule::by_exits && point.exits >= tuning::kMostExits) || out_by_foot(point, foot);
+}
+
+bool PointSelection::out_by_foot(const StoredPoint& point, const Foot& foot) const {
+  return point.outside_window || (foot.kind != FootKind::interior && problem_.config.edges == EdgePolicy::skip);
 }
 
 Region PointSelection::region(const StoredPoint& point, const Foot& foot) const {

@@ -140,6 +140,10 @@ Status Refinement::least_squares_step(const Call& call) {
   const double step = solve(call.concluded);
   sweep_.set_last_step(motion_between(sweep_.last_pose(), estimate_.pose(), problem_.frame));
   if (!sweep_.proves() || step > tuning::kConvergedBelow * problem_.frame.length) return Status::more_work;
+  if (selection_.readmit(store_)) {
+    sweep_.begin_again();  // the sums are without them
+    return Status::more_work;
+  }
   if (!estimate_.determined()) return Status::underdetermined;
   if (plan_.bounded()) {
     begin_program(plan_.row().first);

@@ -19,10 +19,12 @@ struct StoredPoint {
   Region region = Region::rest;
   PointState state = PointState::pending, reported_state = PointState::pending;  ///< reported: what the caller knows
   Action action = Action::none, reported_action = Action::none;
-  bool queued = false;          ///< waits in the ring of revisions
-  bool recent = false;          ///< its row is taken again in every push
-  bool outside_window = false;  ///< does not count in the fit
-  bool held_out = false;        ///< nor does it beyond least squares: its foot was on an edge then
+  bool queued = false;  ///< waits in the ring of revisions
+  bool recent = false;  ///< its row is taken again in every push
+  LeftOut left_out = LeftOut::none;
+  bool fitted = false;          ///< counted in the fit when it was judged
+  bool outside_window = false;  ///< neither counts in the fit nor is judged
+  bool held_out = false;        ///< does not count beyond least squares: its foot was on an edge then
   std::uint8_t exits = 0;       ///< how often it was left out by the present refinement after it had counted
 };
 

@@ -10,7 +10,7 @@ namespace bladefit::tuning {
 /// [L] Points farther from the middle of the design than this are not of this blade.
 inline constexpr double kFarthestPoint = 1e3;
 /// A point may be drawn over an edge where it counts, and back where it does not. Left out so often in one refinement,
-/// it stays out.
+/// it stays out of the fit; once, at the optimum, such points come in again. Judged it is all the same.
 inline constexpr std::uint8_t kMostExits = 4;
 /// Points whose rows are taken again in every push: the newest ones, and contested ones as far as there is room.
 inline constexpr std::uint32_t kRecentPlaces = 16, kNewestRecent = 4;

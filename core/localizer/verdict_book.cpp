@@ -27,6 +27,30 @@ void VerdictBook::assign_region(StoredPoint& point) {
   count(point, +1);
 }
 
+/// What the foot says of the point. Beyond an outer edge the design holds no surface: neither cut nor weld is proven
+/// there, and what lies between two outer edges that face each other, as on a blunt trailing edge, is not beyond. A point
+/// that counts in the fit is judged by its distance like any other.
+VerdictBook::Finding VerdictBook::finding_of(const StoredPoint& point) const {
+  const Foot& foot = point.foot;
+  const double touching = tuning::kTouchingBound * problem_.frame.length, bound = point.tolerance + touching;
+  const auto judged = [&](double distance) {
+    return decide(problem_.config.decision.rule,
+                  {distance, point.tolerance, point.uncertainty, point.expanded, touching});
+  };
+  const auto with_action = [&](PointState state) {
+    const Action by_sign = foot.distance > 0.0 ? Action::cut : Action::weld;
+    return Finding{state, state == PointState::out ? by_sign : Action::none};
+  };
+  if (point.outside_window) return {PointState::rejected, Action::none, LeftOut::window};
+  if (foot.border == FootBorder::none || foot.border == FootBorder::joint) return with_action(judged(foot.distance));
+  if (foot.beyond > bound) return {judged(foot.beyond)};
+  // What is left of the distance at the end of a joint leads away from that.
+  const double aside = std::sqrt(std::max(0.0, foot.distance * foot.distance - foot.beyond * foot.beyond));
+  if (foot.border == FootBorder::joint_end && aside > bound) return with_action(judged(aside));
+  if (!point.fitted) return {PointState::rejected, Action::none, LeftOut::edge};
+  return {judged(foot.distance)};
+}
+
 void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   if (point.tolerance != 0.0) count(point, -1);
   const Foot& foot = point.foot;
@@ -38,19 +62,18 @@ void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   point.uncertainty = uncertainty.standard;
   const double length = (apply(evidence.estimate.pose(), point.position) - problem_.frame.pivot).norm();
   point.expanded = problem_.config.decision.expanded(uncertainty.standard, length);
+  point.fitted = !selection_.left_out(point, foot);
   const double pending_above =
       tuning::kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : problem_.config.determined_mm);
-  if (!evidence.settled && is_judged(point.state) && !selection_.left_out(point, foot)) return count(point, +1);
-  point.action = Action::none;
-  if (selection_.left_out(point, foot)) {
-    point.state = PointState::rejected;
-  } else if (uncertainty.undetermined > pending_above || !evidence.enough || !evidence.settled) {
-    point.state = PointState::pending;
-  } else {
-    point.state = decide(problem_.config.decision.rule, {foot.distance, point.tolerance, point.uncertainty,
-                                                         point.expanded, tuning::kTouchingBound * problem_.frame.length});
+  Finding finding = finding_of(point);
+  if (finding.state != PointState::rejected) {
+    if (!evidence.settled && is_judged(point.state)) return count(point, +1);
+    const bool open = uncertainty.undetermined > pending_above || !evidence.enough || !evidence.settled;
+    if (open) finding = {PointState::pending};
   }
-  if (point.state == PointState::out) point.action = foot.distance > 0.0 ? Action::cut : Action::weld;
+  point.state = finding.state;
+  point.action = finding.action;
+  point.left_out = finding.left_out;
   count(point, +1);
 }
 
@@ -94,6 +117,8 @@ Verdict verdict_of(const StoredPoint& point) {
   verdict.expanded_mm = point.expanded;
   verdict.state = point.state;
   verdict.action = point.action;
+  verdict.left_out = point.left_out;
+  verdict.fitted = point.fitted;
   verdict.revision = point.revision;
   return verdict;
 }

@@ -35,6 +35,12 @@ class VerdictBook {
   [[nodiscard]] std::uint32_t rejected() const { return rejected_; }
 
  private:
+  struct Finding {
+    PointState state;
+    Action action = Action::none;
+    LeftOut left_out = LeftOut::none;
+  };
+  [[nodiscard]] Finding finding_of(const StoredPoint& point) const;
   void judge(StoredPoint& point, const Evidence& evidence);
   void count(const StoredPoint& point, int sign);
 

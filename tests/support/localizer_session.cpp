@@ -26,10 +26,11 @@ bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; 
 
 bool identical(const Verdict& a, const Verdict& b) {
   bool same = a.sequence == b.sequence && a.region == b.region && a.state == b.state && a.action == b.action &&
-              a.revision == b.revision && a.foot.patch == b.foot.patch && a.foot.kind == b.foot.kind;
+              a.revision == b.revision && a.foot.patch == b.foot.patch && a.foot.kind == b.foot.kind &&
+              a.foot.border == b.foot.border && a.left_out == b.left_out && a.fitted == b.fitted;
   same = same && same_bits(a.foot.u, b.foot.u) && same_bits(a.foot.v, b.foot.v) &&
-         same_bits(a.foot.distance, b.foot.distance) && same_bits(a.tolerance_mm, b.tolerance_mm) &&
-         same_bits(a.uncertainty_mm, b.uncertainty_mm);
+         same_bits(a.foot.distance, b.foot.distance) && same_bits(a.foot.beyond, b.foot.beyond) &&
+         same_bits(a.tolerance_mm, b.tolerance_mm) && same_bits(a.uncertainty_mm, b.uncertainty_mm);
   for (int k = 0; k < 3; ++k) {
     same = same && same_bits(a.foot.point[k], b.foot.point[k]) && same_bits(a.foot.normal[k], b.foot.normal[k]);
   }

@@ -38,7 +38,7 @@ Outliers find_outliers(const FitReport& report, double size_mm, const std::vecto
   if (report.determined < report.free || !(sigma > 0.0)) return out;
   std::vector<double> sizes;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (verdicts[i].state == PointState::rejected) continue;
+    if (!verdicts[i].fitted) continue;
     sizes.push_back(std::sqrt(points[i].weight) * std::abs(verdicts[i].foot.distance));
   }
   if (sizes.empty()) return out;
@@ -47,7 +47,7 @@ Outliers find_outliers(const FitReport& report, double size_mm, const std::vecto
   if (!(out.scale > kRounding * size_mm)) return out;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const Verdict& v = verdicts[i];
-    if (v.state == PointState::rejected) continue;
+    if (!v.fitted) continue;
     const double spread = v.uncertainty_mm / sigma, leverage = points[i].weight * spread * spread;
     if (leverage > kMostLeverage) continue;
     const double size = std::sqrt(points[i].weight) * v.foot.distance / (out.scale * std::sqrt(1.0 - leverage));

@@ -39,7 +39,7 @@ void sum_up(const FinishedFit& fit, Result& result) {
   Summing all, leading_edge, rest;
   for (std::size_t i = 0; i < fit.verdicts.size(); ++i) {
     const Verdict& after = fit.verdicts[i];
-    if (after.state == PointState::rejected) continue;
+    if (!after.fitted) continue;
     all.add(fit.before[i], after.foot.distance);
     (after.region == Region::leading_edge ? leading_edge : rest).add(fit.before[i], after.foot.distance);
   }
@@ -74,6 +74,8 @@ ResultPoint point_of(const ProbePoint& point, const Verdict& verdict, double bef
           .before = before,
           .state = verdict.state,
           .action = verdict.action,
+          .left_out = verdict.left_out,
+          .beyond = foot.beyond,
           .foot = foot.point};
 }
 

@@ -157,7 +157,7 @@ void draw_place(const PanelPlace& place, bool has_extension, Page& page) {
     page.put(line.add("-").to(31).add("    -         -         -            -"));
     return;
   }
-  line.add(fmt::format("{:<7}", action_word(place.action)), place.action == Action::cut ? Style::bad : Style::good);
+  line.add(fmt::format("{:<7}", action_word(place.action)), place.action == Action::weld ? Style::good : Style::bad);
   page.put(line.to(31).add(fmt::format("{:>5}  {:>8.4f}  {:>8.4f}  {:>8.2f} mm", place.patch, real(place.u),
                                        real(place.v), real(place.radius))));
 }

@@ -16,11 +16,25 @@ std::string place_of(const Result& result, const ResultPoint& point) {
                      point.v, result.in_units(radius_of(result, point)), result.units);
 }
 
+/// Where the feet of points lie that are not judged.
+std::string where_left_out(const Result& result, std::uint32_t rejected) {
+  const auto count = [&result](LeftOut reason) {
+    return std::count_if(result.points.begin(), result.points.end(),
+                         [reason](const ResultPoint& point) { return point.left_out == reason; });
+  };
+  const auto window = count(LeftOut::window), edge = count(LeftOut::edge);
+  if (window == rejected) return "outside the window before the fit";
+  if (edge == rejected) return "on an outer edge of the design";
+  if (window + edge == rejected)
+    return fmt::format("outside the window before the fit ({}) or on an outer edge of the design ({})", window, edge);
+  return "on an edge of the design or outside the window";
+}
+
 std::string points_sentence(const Result& result) {
   const std::uint32_t rejected = rejected_points(result);
   if (rejected == 0) return fmt::format("{} measured, all of them judged.", counted(result.points.size(), "point"));
-  return fmt::format("{} measured; {} not count, because the foot lies on an edge of the design or outside the window.",
-                     counted(result.points.size(), "point"), rejected == 1 ? "1 does" : fmt::format("{} do", rejected));
+  return fmt::format("{} measured; {} not count, because the foot lies {}.", counted(result.points.size(), "point"),
+                     rejected == 1 ? "1 does" : fmt::format("{} do", rejected), where_left_out(result, rejected));
 }
 
 std::string fit_sentence(const Result& result) {
@@ -32,10 +46,13 @@ std::string fit_sentence(const Result& result) {
 
 std::string out_sentence(const Result& result, const RegionFindings& found) {
   if (found.worst_out == nullptr) return "none is out.";
-  return fmt::format("{} {} out: {} to cut, {} to weld. Worst: {}, {}; {}.", found.out(),
-                     found.out() == 1 ? "is" : "are", found.cut, found.weld,
-                     LengthText(result).with_sign_and_unit(found.worst_out->distance), word_of(found.worst_out->action),
-                     place_of(result, *found.worst_out));
+  const Action action = found.worst_out->action;
+  const std::string beyond =
+      found.beyond > 0 ? fmt::format(", {} beyond the edge of the design", found.beyond) : std::string();
+  return fmt::format(
+      "{} {} out: {} to cut, {} to weld{}. Worst: {}, {}; {}.", found.out(), found.out() == 1 ? "is" : "are", found.cut,
+      found.weld, beyond, LengthText(result).with_sign_and_unit(found.worst_out->distance),
+      action == Action::none ? "beyond the edge of the design" : word_of(action), place_of(result, *found.worst_out));
 }
 
 std::string region_sentence(const Result& result, Region region) {
@@ -61,7 +78,7 @@ RegionFindings findings_of(const Result& result, Region region) {
     ++found.points;
     if (point.state == PointState::pending) ++found.pending;
     if (point.state != PointState::out) continue;
-    ++(point.distance > 0 ? found.cut : found.weld);
+    ++(point.action == Action::none ? found.beyond : point.distance > 0 ? found.cut : found.weld);
     if (found.worst_out == nullptr || std::abs(point.distance) > std::abs(found.worst_out->distance))
       found.worst_out = &point;
   }

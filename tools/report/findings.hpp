@@ -11,15 +11,16 @@ namespace bladefit {
 struct RegionFindings {
   std::uint32_t points = 0;  ///< of the region, rejected ones left out
   std::uint32_t cut = 0, weld = 0;
+  std::uint32_t beyond = 0;  ///< out beyond an outer edge of the design, where neither is proven
   std::uint32_t pending = 0;
   const ResultPoint* worst_out = nullptr;  ///< the out-of-tolerance point of the largest distance; null = none is out
 
-  [[nodiscard]] std::uint32_t out() const { return cut + weld; }
+  [[nodiscard]] std::uint32_t out() const { return cut + weld + beyond; }
 };
 
 [[nodiscard]] RegionFindings findings_of(const Result& result, Region region);
 
-/// Points that do not count: foot on an edge of the design or outside the window.
+/// Points that are not judged.
 [[nodiscard]] std::uint32_t rejected_points(const Result& result);
 
 /// The out-of-tolerance points: those of the leading edge first, in each region the largest distance first.

@@ -36,9 +36,11 @@ std::string region_row(const Result& result, Region region) {
 std::string out_row(const Result& result, const ResultPoint& point) {
   const LengthText text(result);
   const bool cut = point.action == Action::cut;
-  return cells({fmt::format("{}", point.sequence),
-                fmt::format("<b class=\"{0}\">{1} {0}</b>", word_of(point.action), cut ? "+" : "&minus;"),
-                text.with_sign(point.distance), text.with_sign(point.before), text.plain(point.tolerance),
+  const std::string action = point.action == Action::none ? "beyond the edge"
+                                                          : fmt::format("<b class=\"{0}\">{1} {0}</b>",
+                                                                        word_of(point.action), cut ? "+" : "&minus;");
+  return cells({fmt::format("{}", point.sequence), action, text.with_sign(point.distance),
+                text.with_sign(point.before), text.plain(point.tolerance),
                 text.plain(std::abs(point.distance) - point.tolerance), text.plain(point.uncertainty),
                 readable(word_of(point.region)), fmt::format("{}", point.patch), fmt::format("{:.4f}", point.u),
                 fmt::format("{:.4f}", point.v), fmt::format("{:.2f}", result.in_units(radius_of(result, point))),

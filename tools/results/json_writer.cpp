@@ -116,7 +116,9 @@ Json points_json(const std::vector<ResultPoint>& points, double mm_per_unit) {
                     {"uncertainty", point.uncertainty / mm_per_unit},
                     {"expanded_uncertainty", point.expanded / mm_per_unit},
                     {"state", word_of(point.state)},
-                    {"action", word_of(point.action)}});
+                    {"action", word_of(point.action)},
+                    {"left_out", word_of(point.left_out)},
+                    {"beyond", point.beyond / mm_per_unit}});
   }
   return list;
 }

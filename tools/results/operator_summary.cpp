@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "tools/results/words.hpp"
 
@@ -26,6 +27,10 @@ std::string where(const Result& result, const ResultPoint& point) {
                      result.in_units(point.before), radius(point.foot.value()) / result.details->tip_radius);
 }
 
+std::string_view what_to_do(const ResultPoint& point) {
+  return point.action == Action::none ? "beyond the edge of the design" : word_of(point.action);
+}
+
 std::string region_line(const Result& result, Region region, const char* name) {
   std::size_t out = 0;
   const ResultPoint* worst = nullptr;
@@ -36,7 +41,7 @@ std::string region_line(const Result& result, Region region, const char* name) {
   }
   if (worst == nullptr) return fmt::format("no {} point out\n", name);
   return fmt::format("{} {} {} out; worst {}, {}\n", out, name, out == 1 ? "point" : "points", where(result, *worst),
-                     word_of(worst->action));
+                     what_to_do(*worst));
 }
 
 std::string worst_list(const Result& result) {
@@ -182,7 +187,48 @@ std::string decision_line(const Result& result) {
   return fmt::format("Decision: guarded (ISO 14253-1), in or out only beyond U = {:g} u\n", verdict.coverage_factor);
 }
 
-/// The points of the leading edge, and those that do not count.
+/// "1 point is", "3 points are": with the verb for one and for several.
+std::string points_that(std::size_t count, const char* one, const char* several) {
+  return fmt::format("{} {}", count, count == 1 ? one : several);
+}
+
+/// Points that are out, but where the design has no surface.
+std::string beyond_line(const Result& result) {
+  std::size_t count = 0;
+  double farthest = 0.0;
+  for (const ResultPoint& point : result.points) {
+    if (point.state != PointState::out || point.action != Action::none) continue;
+    ++count;
+    farthest = std::max(farthest, point.beyond);
+  }
+  if (count == 0) return "";
+  return fmt::format(
+      "{} up to {} beyond the edge of the design, where there is no surface to cut or weld to: check whether the blade "
+      "is longer there, or was probed past the end of the design; then leave them out with --subset or --window\n",
+      points_that(count, "point lies", "points lie"), length(result, farthest));
+}
+
+/// Points that are not judged, and why.
+std::string left_out_lines(const Result& result) {
+  const auto left_out = [&result](LeftOut reason) {
+    return static_cast<std::size_t>(
+        std::count_if(result.points.begin(), result.points.end(), [reason](const ResultPoint& point) {
+          return point.state == PointState::rejected && point.left_out == reason;
+        }));
+  };
+  std::string text;
+  if (const auto count = left_out(LeftOut::window); count > 0)
+    text += fmt::format("{} not judged: foot outside the window before the fit\n",
+                        points_that(count, "point is", "points are"));
+  if (const auto count = left_out(LeftOut::edge); count > 0)
+    text += fmt::format(
+        "{} not judged: foot on an outer edge of the design, and no farther beyond it than the "
+        "tolerance\n",
+        points_that(count, "point is", "points are"));
+  return text + beyond_line(result);
+}
+
+/// The points of the leading edge, and those that are not judged.
 std::string point_lines(const Result& result) {
   std::string text;
   const RegionDistances& edge = result.leading_edge;
@@ -190,11 +236,7 @@ std::string point_lines(const Result& result) {
     text += fmt::format("Leading edge: {} points, rms {:.4f} {}, largest {:.4f} {}\n", edge.count,
                         result.in_units(edge.rms_after), result.units, result.in_units(edge.max_after), result.units);
   }
-  const auto rejected = std::count_if(result.points.begin(), result.points.end(),
-                                      [](const ResultPoint& point) { return point.state == PointState::rejected; });
-  if (rejected > 0)
-    text += fmt::format("{} points do not count: foot on an edge of the design or outside the window\n", rejected);
-  return text;
+  return text + left_out_lines(result);
 }
 
 std::string tolerance_lines(const Result& result) {

@@ -30,6 +30,8 @@ struct ResultPoint {
   double before = 0;       ///< distance before the fit, at C = I, t = 0: a best fit hides errors
   PointState state = PointState::pending;
   Action action = Action::none;
+  LeftOut left_out = LeftOut::none;  ///< why it is rejected; none too where a file does not say
+  double beyond = 0;                 ///< how far it lies beyond an outer edge of the design, along the surface
   std::optional<Vec3> foot;  ///< on the design; nothing in a session that was read back, whose files do not hold it
 };
 

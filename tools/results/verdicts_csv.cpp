@@ -15,10 +15,10 @@
 namespace bladefit {
 namespace {
 
-constexpr std::array<std::string_view, 16> kColumns = {
+constexpr std::array<std::string_view, 18> kColumns = {
     "sequence",     "patch",          "u",     "v",      "kind", "region", "distance_mm",
     "tolerance_mm", "uncertainty_mm", "state", "action", "x",    "y",      "z",
-    "expanded_uncertainty_mm", "distance_before_mm"};
+    "expanded_uncertainty_mm", "distance_before_mm", "left_out", "beyond_mm"};
 constexpr std::size_t kQuotedCharacters = 40;
 constexpr const char* kRemedy = "the file is damaged or foreign; run the session again with the same --session";
 
@@ -100,6 +100,8 @@ ResultPoint point_of(const Row& row) {
   for (std::size_t axis = 0; axis < 3; ++axis) point.position.at(axis) = row.finite(11 + axis);
   point.expanded = row.bound(14);
   point.before = row.finite(15);
+  point.left_out = row.one_of<LeftOut>(16, kLeftOutWords);
+  point.beyond = row.bound(17);
   return point;
 }
 
@@ -108,10 +110,10 @@ ResultPoint point_of(const Row& row) {
 std::string verdicts_csv(const std::vector<ResultPoint>& points) {
   std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const ResultPoint& point : points) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u, point.v,
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u, point.v,
                         word_of(point.kind), word_of(point.region), point.distance, point.tolerance, point.uncertainty,
                         word_of(point.state), word_of(point.action), point.position[0], point.position[1],
-                        point.position[2], point.expanded, point.before);
+                        point.position[2], point.expanded, point.before, word_of(point.left_out), point.beyond);
   }
   return text;
 }

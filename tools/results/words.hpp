@@ -15,6 +15,7 @@ inline constexpr std::array<std::string_view, 3> kKindWords = {"interior", "edge
 inline constexpr std::array<std::string_view, 2> kRegionWords = {"rest", "leading_edge"};
 inline constexpr std::array<std::string_view, 5> kStateWords = {"pending", "in", "out", "rejected", "undecided"};
 inline constexpr std::array<std::string_view, 3> kActionWords = {"none", "cut", "weld"};
+inline constexpr std::array<std::string_view, 3> kLeftOutWords = {"none", "window", "edge"};
 inline constexpr std::array<std::string_view, 4> kFitWords = {"underdetermined", "not_converged", "converged",
                                                               "infeasible"};
 
@@ -26,6 +27,7 @@ template <typename Value, std::size_t count>
 [[nodiscard]] constexpr std::string_view word_of(Region region) { return word_in(kRegionWords, region); }
 [[nodiscard]] constexpr std::string_view word_of(PointState state) { return word_in(kStateWords, state); }
 [[nodiscard]] constexpr std::string_view word_of(Action action) { return word_in(kActionWords, action); }
+[[nodiscard]] constexpr std::string_view word_of(LeftOut reason) { return word_in(kLeftOutWords, reason); }
 [[nodiscard]] constexpr std::string_view word_of(FitStatus status) { return word_in(kFitWords, status); }
 
 /// The value whose word this is; nothing for another word.

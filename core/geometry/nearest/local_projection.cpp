@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/nearest/held_sides.hpp"
 #include "core/geometry/nearest/newton_walk.hpp"
 #include "core/geometry/surface/distance_quadratic.hpp"
 
@@ -160,44 +161,24 @@ Projection project_local(const Surface& surface, const Vec3& r, const SurfacePla
   return result;
 }
 
-namespace {
-
-/// At a seam the offset may lean across it by this much [half diagonals] for a gap, and by this share for a bend.
-constexpr double kSeamGap = 1e-4, kSeamBend = 0.05;
-
-/// Directions in which a projection is held where the surface does end. One that is held at a seam but leans far across
-/// it is no foot of the whole surface, only of its patch: it stays on an edge.
-int held_at_ends(const Surface& surface, const Projection& projection) {
-  const std::uint32_t ends = surface.span(projection.place.span).ends;
-  const double most = kSeamGap * surface.half_diagonal() + kSeamBend * projection.offset.norm();
-  const auto held = [&](bool fixed, const Vec3& tangent, std::uint32_t seam) {
-    const bool upright = std::abs(projection.offset.dot(tangent)) <= most * tangent.norm();
-    return fixed && !((ends & seam) != 0 && upright) ? 1 : 0;
-  };
-  return held(projection.fixed_u, projection.at.s_u, projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU) +
-         held(projection.fixed_v, projection.at.s_v, projection.place.v <= 0.5 ? kSeamAtLowV : kSeamAtHighV);
-}
-
-}  // namespace
-
 Foot foot_of(const Surface& surface, const Projection& projection, double probe_radius) {
   Foot foot;
   foot.patch = surface.span(projection.place.span).patch;
   foot.u = projection.place.u;
   foot.v = projection.place.v;
   foot.point = projection.at.s;
-  const int fixed = held_at_ends(surface, projection);
-  foot.kind = fixed == 0 ? FootKind::interior : fixed == 1 ? FootKind::edge : FootKind::corner;
-  if (foot.kind == FootKind::interior) {
+  const HeldSides held = held_sides(surface, projection);
+  foot.border = held.border;
+  if (held.count == 0) {
     foot.normal = surface.normal(projection.place, projection.at);
-    const double along = foot.normal.dot(projection.offset);
-    const bool at_seam = projection.fixed_u || projection.fixed_v;
-    foot.distance = (at_seam ? std::copysign(projection.offset.norm(), along) : along) - probe_radius;
-  } else {
-    const double length = projection.offset.norm();
-    foot.normal = projection.offset / length;
-    foot.distance = length - probe_radius;
+    foot.distance = foot.normal.dot(projection.offset) - probe_radius;
+    return foot;
   }
+  const double length = projection.offset.norm();
+  foot.kind = held.count == 1 ? FootKind::edge : FootKind::corner;
+  foot.normal = held.side * projection.offset / length;
+  foot.distance = held.side * length - probe_radius;
+  foot.beyond = std::max(0.0, held.outward * foot.distance);
   return foot;
 }
 

@@ -25,7 +25,9 @@ struct Projection {
                                        const ParameterLimits& limits = {});
 
 /// The foot that a projection stands for. `probe_radius` [mm] is subtracted from the distance. A foot that is held at a
-/// seam is interior: the neighbour continues the surface there, but for a gap or a bend within the design's accuracy.
+/// smooth joint is interior: the neighbour continues the surface there, but for a gap or a bend within the design's
+/// accuracy, and its distance is along the normal. At a joint that bends, it is an edge, and its distance is the length
+/// of r - q, negative where r is inside of the material.
 [[nodiscard]] Foot foot_of(const Surface& surface, const Projection& projection, double probe_radius);
 
 }  // namespace bladefit

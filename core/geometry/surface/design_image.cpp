@@ -82,11 +82,18 @@ bool bounds_valid(const ImageBounds& b) {
   return valid;
 }
 
-/// The sides on the patch's edges are marked, seams among these, and nothing else is set.
+/// The sides on the patch's edges are marked, joints are at marked sides, and nothing else is set.
 bool ends_valid(const ImageSpan& s, const ImagePatch& p) {
   const std::uint32_t edges = (s.iu == 0 ? kEndsAtLowU : 0U) | (s.iu + 1 == p.spans_u ? kEndsAtHighU : 0U) |
                               (s.iv == 0 ? kEndsAtLowV : 0U) | (s.iv + 1 == p.spans_v ? kEndsAtHighV : 0U);
-  return (s.ends & edges) == edges && s.ends < 256U && ((s.ends >> 4U) & ~edges) == 0;
+  if ((s.ends & edges) != edges || s.ends >= 16U) return false;
+  for (std::uint32_t side = 0; side < 4; ++side) {
+    if (s.joints[side] != 0 && (s.ends & (1U << side)) == 0) return false;
+    for (std::uint32_t part = 0; part < kJointParts; ++part) {
+      if (!is_joint(static_cast<std::uint32_t>(joint_of_part(s.joints[side], part)))) return false;
+    }
+  }
+  return true;
 }
 
 /// Control points finite, weights positive.

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/geometry/surface/joint.hpp"
 #include "core/status.hpp"
 
 namespace bladefit {
@@ -14,7 +15,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 5;
+inline constexpr std::uint32_t kImageVersion = 6;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -51,15 +52,14 @@ struct ImagePatch {
 
 /// Sides of a span beyond which the surface ends or is not smooth: bits of ImageSpan::ends.
 inline constexpr std::uint32_t kEndsAtLowU = 1, kEndsAtHighU = 2, kEndsAtLowV = 4, kEndsAtHighV = 8;
-/// Edges of the patch beyond which another patch, or the same one again, continues the surface smoothly: further bits.
-inline constexpr std::uint32_t kSeamAtLowU = 16, kSeamAtHighU = 32, kSeamAtLowV = 64, kSeamAtHighV = 128;
 
 /// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
 /// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w); the coefficient of its Taylor
 /// form (taylor.hpp) of order i in s, j in t at taylor[] of the same index.
 struct ImageSpan {
   std::uint32_t patch, iu, iv;
-  std::uint32_t ends;  ///< kEndsAt... bits: edges of the patch and creases; kSeamAt... bits: which edges are seams
+  std::uint32_t ends;       ///< kEndsAt... bits: edges of the patch and creases
+  std::uint64_t joints[4];  ///< of these sides: a Joint a part, in rising parameter from the lowest bits on
   std::uint64_t first_coefficient;
   double cone_axis[3];  ///< every outward normal of the span is within the cone about this unit axis
   double cone_cosine;   ///< cosine of the half angle; -1 where no bound is known
@@ -103,7 +103,7 @@ struct ImageNode {
   std::uint32_t child[4];
 };
 
-static_assert(sizeof(ImageHeader) == 168 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 56 &&
+static_assert(sizeof(ImageHeader) == 168 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 88 &&
               sizeof(ImageBounds) == 616 && sizeof(ImageLeaf) == 656 && sizeof(ImageNode) == 112);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.

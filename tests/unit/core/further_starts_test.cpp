@@ -34,7 +34,7 @@ double value_at(const Localizer& localizer, const CompiledDesign& design, const 
   for (const ProbePoint& point : points) {
     Verdict verdict;
     EXPECT_EQ(localizer.verdict_of(point.sequence, verdict), Status::ok);
-    if (verdict.state == PointState::rejected) continue;
+    if (!verdict.fitted) continue;
     ProjectionQuery query{apply(pose, Vec3(point.position.data())), Vec3::Zero(), 0.0};
     if (config.use_approach) query.approach = pose.rotation * Vec3(point.approach.data());
     const Projection nearest = project_global(design.surface(), query, nullptr).nearest;

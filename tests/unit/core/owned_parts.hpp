@@ -32,6 +32,7 @@ inline Foot foot_at(double u, double distance, FootKind kind = FootKind::interio
   foot.normal = Vec3::UnitZ();
   foot.distance = distance;
   foot.kind = kind;
+  foot.border = kind == FootKind::interior ? FootBorder::none : FootBorder::outer;
   return foot;
 }
 

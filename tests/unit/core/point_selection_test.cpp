@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/localizer_fixtures.hpp"
-#include "tests/unit/core/owned_parts.hpp"
+#include "tests/unit/core/verdict_desk.hpp"
 
 namespace bladefit::testing {
 namespace {
-
-constexpr double kOnEdgeOfBlade = 0.5, kOnRest = 0.1;  ///< u of feet in the box of the leading edge and outside of it
 
 FitProblem problem_with(EdgePolicy edges) {
   LocalizerConfig config = config_of(read_case("dtmb4119"), 10);
@@ -77,6 +75,29 @@ TEST(PointSelection, ByExitsKeepsOutAPointThatWasLeftOutTooOften) {
   EXPECT_TRUE(selection.left_out(store[0], kInside));
   selection.by_foot();
   EXPECT_FALSE(selection.left_out(store[0], kInside));
+}
+
+/// What left because the pose travelled comes in again at the optimum; what leaves again stays out.
+TEST(PointSelection, ReadmitsOnceWhatStayedOutAndWhoseFootCountsNow) {
+  const FitProblem problem = problem_with(EdgePolicy::skip);
+  PointSelection selection(problem);
+  OwnedStore store(3);
+  for (const std::uint32_t sequence : {1U, 2U, 3U}) store.append(numbered(sequence));
+  selection.by_exits(store);
+  EXPECT_FALSE(selection.readmit(store)) << "nothing stayed out";
+  for (const std::uint32_t i : {0U, 1U}) store[i].exits = tuning::kMostExits;
+  store[0].foot = kInside;
+  store[1].foot = kOnBorder;
+  store[2].foot = kInside;
+  EXPECT_TRUE(selection.readmit(store));
+  EXPECT_FALSE(selection.left_out(store[0], kInside));
+  EXPECT_TRUE(selection.left_out(store[1], kInside)) << "its foot did not count";
+  store[0].exits = tuning::kMostExits;
+  EXPECT_FALSE(selection.readmit(store)) << "the refinement must end";
+  EXPECT_TRUE(selection.left_out(store[0], kInside));
+  selection.by_exits(store);
+  store[0].exits = tuning::kMostExits;
+  EXPECT_TRUE(selection.readmit(store)) << "the next refinement may again";
 }
 
 TEST(PointSelection, HoldKeepsRegionAndMembershipWhereverFeetGo) {

@@ -51,11 +51,15 @@ void expect_consistent(const Verdict& v, const LocalizerConfig& config) {
   }
   if (v.state == PointState::out) {
     EXPECT_TRUE(beyond);
-    EXPECT_EQ(v.action, v.foot.distance > 0.0 ? Action::cut : Action::weld);
+    const Action by_sign = v.foot.distance > 0.0 ? Action::cut : Action::weld;
+    EXPECT_EQ(v.action, v.foot.border == FootBorder::outer ? Action::none : by_sign);
   } else {
     EXPECT_EQ(v.action, Action::none);
   }
-  EXPECT_EQ(v.state == PointState::rejected, v.foot.kind != FootKind::interior);
+  const bool at_outer_edge = v.foot.border != FootBorder::none && v.foot.beyond <= v.tolerance_mm;
+  EXPECT_EQ(v.state == PointState::rejected, at_outer_edge);
+  EXPECT_EQ(v.left_out, at_outer_edge ? LeftOut::edge : LeftOut::none);
+  EXPECT_EQ(v.fitted, v.foot.kind == FootKind::interior);
   EXPECT_GT(v.uncertainty_mm, 0.0);
 }
 
@@ -91,12 +95,13 @@ TEST(Verdicts, ReportCountsThem) {
   OwnedLocalizer stream(s.design.image(), s.config);
   push_all(*stream, s.points);
   ASSERT_EQ(refine_fully(*stream), Status::ok);
-  std::uint32_t out[2] = {0, 0}, rejected = 0;
+  std::uint32_t out[2] = {0, 0}, rejected = 0, fitted = 0;
   for (const ProbePoint& point : s.points) {
     Verdict verdict;
     ASSERT_EQ(stream->verdict_of(point.sequence, verdict), Status::ok);
     if (verdict.state == PointState::out) ++out[static_cast<std::size_t>(verdict.region)];
     if (verdict.state == PointState::rejected) ++rejected;
+    if (verdict.fitted) ++fitted;
   }
   const FitReport report = stream->fit();
   EXPECT_EQ(report.rest.judged_out, out[0]);
@@ -104,7 +109,7 @@ TEST(Verdicts, ReportCountsThem) {
   EXPECT_EQ(report.rejected, rejected);
   EXPECT_GT(out[0] + out[1], 0U);
   EXPECT_EQ(report.rest.count + report.leading_edge.count, report.fitted);
-  EXPECT_EQ(report.fitted + rejected, report.points);
+  EXPECT_EQ(report.fitted, fitted);
 }
 
 TEST(Verdicts, ArePendingUntilThePoseIsDetermined) {

@@ -118,7 +118,7 @@ TEST(ReportRefusals, DamagedVerdicts) {
       {"out,cut", "out,paint", {":2:", "column action: 'paint'"}},
       {"\n2,0,0.5", "\n2,0,1.5", {":3:", "column u: '1.5' is not within 0 to 1"}},
       {"\n4,", "\n1,", {":4:", "the sequence does not rise"}},
-      {",1.27\n", "\n", {":2:", "15 columns where 16 belong"}},
+      {",none,0\n", ",none\n", {":2:", "17 columns where 18 belong"}},
       {"0.254", "-0.254", {":2:", "column tolerance_mm", "negative"}},
   };
   for (const Damage& damage : table) {

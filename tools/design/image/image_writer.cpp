@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "tools/design/image/creases.hpp"
-#include "tools/design/image/seams.hpp"
+#include "tools/design/image/joints.hpp"
 #include "tools/design/image/span_bounding.hpp"
 #include "tools/design/image/tree_builder.hpp"
 #include "tools/design/nurbs/bezier_extraction.hpp"
@@ -150,7 +150,7 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   copy_array(parts.coefficients, header.coefficients_offset, image);
   copy_array(parts.taylor, header.taylor_offset, image);
   seal(image);
-  mark_seams(image);
+  mark_joints(image);
   seal(image);
   return image;
 }
@@ -166,8 +166,11 @@ void set_outward(std::vector<std::byte>& image, int outward) {
     ImageSpan span;
     std::memcpy(&span, place, sizeof span);
     for (double& component : span.cone_axis) component = -component;
+    std::fill_n(span.joints, 4, 0U);  // a ridge becomes a valley
     std::memcpy(place, &span, sizeof span);
   }
+  seal(image);
+  mark_joints(image);
   seal(image);
 }
 

@@ -1,0 +1,140 @@
+#include "tools/design/image/meeting_surface.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/geometry/nearest/bounding_tree.hpp"
+#include "core/geometry/nearest/global_projection.hpp"
+#include "core/geometry/nearest/leaf_bounds.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Two places of a patch are one neighbourhood where no place between them is farther away than this many gaps.
+constexpr double kNeighbourhood = 4.0;
+/// Surface is looked for so many gaps away, and is there where it is nearer to that place than this share of the way.
+constexpr double kWay = 3.0, kFarthest = 0.75;
+/// A blunt edge is no thicker than this [half diagonals].
+constexpr double kThickest = 0.05;
+
+/// Parameters of a leaf within its patch.
+ParameterLimits limits_of(const Surface& surface, const ImageLeaf& leaf) {
+  const SpanDomain d = surface.domain(leaf.span);
+  const auto at = [](double low, double high, double x) {
+    return x <= 0.0 ? low : x >= 1.0 ? high : low + x * (high - low);
+  };
+  return {at(d.u_min, d.u_max, leaf.s_min), at(d.u_min, d.u_max, leaf.s_max), at(d.v_min, d.v_max, leaf.t_min),
+          at(d.v_min, d.v_max, leaf.t_max)};
+}
+
+/// Unit vector into the patch at a place of its edge; nothing inside of it.
+std::optional<Vec3> into_patch(const Projection& p) {
+  const auto inward = [](double t, const Vec3& tangent, const Vec3& along) -> Vec3 {
+    if (t > 0.0 && t < 1.0) return Vec3::Zero();
+    const double square = along.squaredNorm();
+    Vec3 across = tangent;
+    if (square > 0.0) across -= (tangent.dot(along) / square) * along;
+    const double size = across.norm();
+    if (!(size > 0.0)) return Vec3::Zero();
+    return (t > 0.0 ? -1.0 : 1.0) / size * across;
+  };
+  const Vec3 sum = inward(p.place.u, p.at.s_u, p.at.s_v) + inward(p.place.v, p.at.s_v, p.at.s_u);
+  const double size = sum.norm();
+  return size > 0.0 ? std::optional<Vec3>(sum / size) : std::nullopt;
+}
+
+}  // namespace
+
+MeetingSurface::MeetingSurface(const Surface& surface) : surface_(surface), gap_(joint_gap(surface.half_diagonal())) {}
+
+template <class Use>
+void MeetingSurface::each_leaf(const Vec3& point, double reach, Use use) const {
+  const BoxDistances boxes(point - surface_.middle());
+  const float threshold = boxes.threshold(reach);
+  std::vector<std::uint32_t> pending = {0};
+  while (!pending.empty()) {
+    const ImageNode& node = surface_.image().nodes()[pending.back()];
+    pending.pop_back();
+    const BoxDistances::Four squares = boxes.squares(node);
+    for (int k = 0; k < 4; ++k) {
+      if (!(squares[k] < threshold)) continue;
+      const std::uint32_t child = node.child[k];
+      if ((child & kLeafChild) == 0) {
+        pending.push_back(child);
+      } else {
+        use(child & ~kLeafChild);
+      }
+    }
+  }
+}
+
+std::optional<MeetingPlace> MeetingSurface::find(const SurfacePlace& own, const Vec3& point) const {
+  std::optional<MeetingPlace> best;
+  each_leaf(point, gap_, [&](std::uint32_t leaf) { look_in(leaf, own, point, best); });
+  return best;
+}
+
+std::optional<Vec3> MeetingSurface::facing_edge(const SurfacePlace& own, const Vec3& point, const Vec3& normal,
+                                                const Vec3& onward) const {
+  double reach = kThickest * surface_.half_diagonal();
+  std::optional<Vec3> best;
+  const std::uint32_t patch = surface_.span(own.span).patch;
+  const auto look_at = [&](std::uint32_t span, const ParameterLimits& line) {
+    const bool own_side = surface_.span(span).patch == patch && ((line.u_min == line.u_max && line.u_min == own.u) ||
+                                                                 (line.v_min == line.v_max && line.v_min == own.v));
+    if (own_side) return;
+    const SurfacePlace start{span, 0.5 * (line.u_min + line.u_max), 0.5 * (line.v_min + line.v_max)};
+    const Projection found = project_local(surface_, point, start, line);
+    const Vec3 way = -found.offset;
+    const std::optional<Vec3> inward = into_patch(found);
+    const bool faces = way.dot(normal) < 0.0 && inward && inward->dot(onward) < 0.0;
+    if (!faces || way.norm() >= reach) return;
+    reach = way.norm();
+    best = way;
+  };
+  each_leaf(point, reach, [&](std::uint32_t leaf) {
+    const ImageLeaf& l = surface_.image().leaves()[leaf];
+    const ParameterLimits limits = limits_of(surface_, l);
+    for (const double u : {0.0, 1.0}) {
+      if (limits.u_min == u || limits.u_max == u) look_at(l.span, {u, u, limits.v_min, limits.v_max});
+    }
+    for (const double v : {0.0, 1.0}) {
+      if (limits.v_min == v || limits.v_max == v) look_at(l.span, {limits.u_min, limits.u_max, v, v});
+    }
+  });
+  return best;
+}
+
+void MeetingSurface::look_in(std::uint32_t leaf, const SurfacePlace& own, const Vec3& point,
+                             std::optional<MeetingPlace>& best) const {
+  const ImageLeaf& l = surface_.image().leaves()[leaf];
+  if (least_distance(l.bounds, in_frame(l.bounds, point)) > gap_) return;
+  const ParameterLimits limits = limits_of(surface_, l);
+  const SurfacePlace middle{l.span, 0.5 * (limits.u_min + limits.u_max), 0.5 * (limits.v_min + limits.v_max)};
+  const Projection found = project_local(surface_, point, middle, limits);
+  const double distance = found.offset.norm();
+  if (distance > gap_ || (best && distance >= best->distance)) return;
+  const bool same_patch = surface_.span(own.span).patch == surface_.span(found.place.span).patch;
+  if (same_patch && connected(own, found.place, point)) return;
+  best = MeetingPlace{distance, surface_.normal(found.place, found.at), into_patch(found)};
+}
+
+bool MeetingSurface::connected(const SurfacePlace& a, const SurfacePlace& b, const Vec3& point) const {
+  for (const double share : {0.25, 0.5, 0.75}) {
+    SurfacePlace between{a.span, a.u + share * (b.u - a.u), a.v + share * (b.v - a.v)};
+    surface_.settle(between);
+    if ((surface_.evaluate(between).s - point).norm() > kNeighbourhood * gap_) return false;
+  }
+  return true;
+}
+
+bool MeetingSurface::reaches(const Vec3& point, const Vec3& direction) const {
+  const double way = kWay * gap_;
+  const ProjectionQuery query{point + way * direction, Vec3::Zero(), 0.0};
+  const Projection found = project_global(surface_, query, nullptr).nearest;
+  return found.converged && !found.fixed_u && !found.fixed_v && found.offset.norm() < kFarthest * way;
+}
+
+}  // namespace bladefit
