@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <cstdio>
+#include <cstdlib>
 
 namespace bladefit {
 
@@ -22,15 +24,18 @@ Refinement::Refinement(const FitProblem& problem, const ModePlan& plan, const Fo
       verdicts_(verdicts),
       sweep_(problem),
       program_(problem, plan),
+      descent_sheets_(problem, finder),
       starts_(problem, plan, finder, selection) {}
 
 void Refinement::clear() {
   phase_ = Phase::idle;
   starts_.restart();
   unproven_ = 0;
+  ended_ = FitEnd::none;
 }
 
 void Refinement::interrupt() {
+  ended_ = FitEnd::none;
   enter(Event::interrupted);
   starts_.interrupt();
 }
@@ -41,6 +46,7 @@ void Refinement::begin(bool concluded, ModeOptimum& optimum) {
   loss_.restart();
   program_.restart();
   starts_.restart();
+  ended_ = FitEnd::none;
   optimum = ModeOptimum();  // an earlier optimum is not reported beside a failed search
   estimate_.redetermine();
   sums_.settle_all(store_, estimate_);
@@ -60,7 +66,7 @@ Status Refinement::advance(std::uint32_t max_points, bool concluded, ModeOptimum
         if (sums_.cursor() == store_.size()) status = finish_sweep(call);
         break;
       case Phase::further_starts:
-        ++visited;
+        visited += kLanes;
         status = start_on(optimum);
         break;
       case Phase::done:
@@ -69,6 +75,7 @@ Status Refinement::advance(std::uint32_t max_points, bool concluded, ModeOptimum
         return Status::underdetermined;
     }
   }
+  if (status == Status::ok) ended_ = FitEnd::none;
   if (status != Status::more_work) enter(status == Status::ok ? Event::converged : Event::ended_unconverged);
   return status;
 }
@@ -76,7 +83,9 @@ Status Refinement::advance(std::uint32_t max_points, bool concluded, ModeOptimum
 void Refinement::begin_sweep() {
   sums_.begin_sweep(estimate_.pose());
   sweep_.begin(estimate_.pose());
-  if (phase_ == Phase::mode) program_.set_pose(estimate_.pose());
+  if (phase_ != Phase::mode) return;
+  program_.set_pose(estimate_.pose());
+  descent_sheets_.begin_sweep(program_);
 }
 
 /// Measures the next points of the sweep and returns how many: as many as there are lanes, where there are so many.
@@ -86,7 +95,10 @@ std::uint32_t Refinement::sweep_on(std::uint32_t max_points) {
   for (std::uint32_t k = 0; k < count; ++k) indices[k] = sums_.cursor() + k;
   finder_.find_each(
       store_, {indices.data(), count}, estimate_.pose(), Vec6::Zero(),
-      [this](const StoredPoint& point) { return sweep_.search_of(point); },
+      [this](std::uint32_t index) {
+        if (phase_ == Phase::mode) return FootStart{descent_sheets_.sheets().kept(index), sweep_.search_of_kept()};
+        return FootStart{place_of(store_[index]), sweep_.search_of(store_[index])};
+      },
       [this](std::uint32_t index, const Measurement& m) { take_in(index, m); });
   return count;
 }
@@ -98,12 +110,20 @@ void Refinement::take_in(std::uint32_t index, const Measurement& m) {
   selection_.note_exit(point, m.foot);
   store_.record(point, m, estimate_.revision());
   const bool has_program = phase_ == Phase::mode;
-  if (selection_.left_out(point, m.foot)) {
+  const bool counts = !selection_.left_out(point, m.foot);
+  if (has_program) descent_sheets_.note(index, point, estimate_.pose(), m, counts, program_);
+  if (!counts) {
     if (has_program) program_.skip_row(index);
     sums_.pass_over();
     return;
   }
   const DistanceRow row = finder_.row(m, Vec6::Zero());
+  if (m.changed && has_program && getenv("TRACE")) {
+    const Projection was = project_local(problem_.surface, m.r, descent_sheets_.sheets().kept(index));
+    const Foot f = foot_of(problem_.surface, was, 0.0);
+    const Vec3 a = estimate_.pose().rotation * point.approach;
+    fprintf(stderr, "TRACE   point %u: d %.6f (n.a %.4f kind %d conv %d at %.4f %.4f) -> d %.6f (n.a %.4f kind %d at %.4f %.4f)\n", point.sequence, f.distance, f.normal.dot(a), (int)f.kind, (int)was.converged, f.u, f.v, m.foot.distance, m.foot.normal.dot(a), (int)m.foot.kind, m.foot.u, m.foot.v);
+  }
   sums_.sweep_over(point, m, row);
   if (has_program) program_.set_row(index, row);
 }
@@ -113,14 +133,23 @@ Status Refinement::finish_sweep(const Call& call) {
   sums_.commit();
   estimate_.redetermine();
   Status status = phase_ == Phase::mode ? program_step(call) : least_squares_step(call);
-  if (status == Status::more_work && sweep_.number() >= tuning::kRefineSweeps) status = Status::iteration_cap;
+  if (status == Status::more_work && sweep_.number() >= most_sweeps()) status = given_up(FitEnd::sweeps_used_up);
   if (status == Status::iteration_cap && go_elsewhere(call.concluded)) status = Status::more_work;
   unproven_ = sweep_.unproven();
-  if (status == Status::ok && unproven_ > 0) status = Status::iteration_cap;
+  if (status == Status::ok && unproven_ > 0) status = given_up(FitEnd::feet_unproven);
   call.optimum.infeasible = call.optimum.infeasible && status == Status::ok;
   sweep_.end();
   begin_sweep();
   return status;
+}
+
+std::uint32_t Refinement::most_sweeps() const {
+  return phase_ == Phase::mode ? tuning::kProgramSweeps : tuning::kRefineSweeps;
+}
+
+Status Refinement::given_up(FitEnd why) {
+  ended_ = why;
+  return Status::iteration_cap;
 }
 
 /// Returns the length of the step [mm at the half diagonal].
@@ -142,7 +171,9 @@ Status Refinement::least_squares_step(const Call& call) {
   if (!sweep_.proves() || step > tuning::kConvergedBelow * problem_.frame.length) return Status::more_work;
   if (!estimate_.determined()) return Status::underdetermined;
   if (plan_.bounded()) {
-    begin_program(plan_.row().first);
+    settle_selection();
+    if (plan_.may_be_infeasible() && program_.bounds_hold(store_, selection_)) return Status::ok;
+    begin_program(plan_.row().first, false);
     return Status::more_work;
   }
   if (!loss_.adapt(store_, selection_)) return Status::ok;
@@ -160,21 +191,40 @@ bool Refinement::retreat() {
   return true;
 }
 
-void Refinement::begin_program(FitMode mode) {
-  if (!selection_.held()) {
-    selection_.hold(store_);
-    (void)program_.assign_regions(store_, verdicts_);
-    starts_.plan(estimate_.pose(), sums_.model());
-  }
+/// At the least-squares optimum: which points count from here on, and how tight their bounds are.
+void Refinement::settle_selection() {
+  selection_.hold(store_);
+  (void)program_.assign_regions(store_, verdicts_);
+  starts_.plan(estimate_.pose(), sums_.model());
+  const PointSelection::Span span = selection_.distances(store_, 1);
+  squares_range_ = span.most - span.least;
+}
+
+/// `there`: at the pose of the last program.
+void Refinement::begin_program(FitMode mode, bool there) {
   enter(Event::program_began);
   program_.begin(mode, store_.size());
+  descent_sheets_.begin(store_, there);
   sweep_.begin_again();  // the next sweep takes rows at the same pose: no foot needs a search
 }
 
 /// ok: this pose is the optimum, proven by its multipliers.
 Status Refinement::program_step(const Call& call) {
+  const double merit = program_.merit(sums_.model());
+  const SheetDescent::Outcome outcome = descent_sheets_.weigh(sweep_.proof(), merit, estimate_.pose(), store_.size());
+  if (getenv("TRACE") && outcome != SheetDescent::Outcome::same) fprintf(stderr, "TRACE outcome %d merit %.9g\n", (int)outcome, merit);
+  if (outcome == SheetDescent::Outcome::stuck) return given_up(FitEnd::feet_changing);
+  if (outcome != SheetDescent::Outcome::same) program_.compare_anew();
+  if (outcome == SheetDescent::Outcome::back) {
+    estimate_.move_to(descent_sheets_.proven_pose());
+    sweep_.set_last_step(Vec6::Constant(problem_.frame.length));
+    return Status::more_work;
+  }
+  const double tr_value = program_.value();
   const BoundedFit::Step step = program_.step(sums_.model());
-  if (!succeeded(step.status)) return Status::iteration_cap;
+  if (getenv("TRACE")) fprintf(stderr, "TRACE sweep %u mode %d thorough %d others %u value %.9g status %d step %.3g from_last %d settled %d\n", sweep_.number(), (int)program_.mode(), (int)sweep_.proof(), sweep_.changed(), tr_value, (int)step.status, step.x.norm(), (int)step.from_last, (int)step.settled);
+  if (!step.from_last) descent_sheets_.accept(store_.size());
+  if (!succeeded(step.status)) return given_up(FitEnd::program_failed);
   if (step.settled && sweep_.proves()) return program_optimum(call);
   if (!step.from_last) sweep_.set_last_pose(estimate_.pose());
   estimate_.move_to(problem_.moved_and_held(sweep_.last_pose(), step.x));
@@ -187,21 +237,25 @@ Status Refinement::program_step(const Call& call) {
 Status Refinement::program_optimum(const Call& call) {
   switch (program_.follow_feet(store_, verdicts_)) {
     case ModeProgram::Regions::restless:
-      return Status::iteration_cap;
+      return given_up(FitEnd::regions_restless);
     case ModeProgram::Regions::changed:
-      begin_program(plan_.row().first);
+      begin_program(plan_.row().first, true);
       return Status::more_work;
     case ModeProgram::Regions::at_rest:
       break;
   }
   ModeOptimum& optimum = call.optimum;
   optimum.stationarity = program_.stationarity();
+  optimum.held_feet = program_.held_feet();
   const ModeRow& program = mode_row(program_.mode());
   const bool last = program.mode == plan_.row().mode;
   const double value = program_.value();
   if (program.value_is_tolerance) optimum.smallest_tolerance = value * plan_.unit();
   if (!last && plan_.goes_on(value)) {
-    begin_program(plan_.row().mode);
+    const bool worse = plan_.row().then == ModeRow::Then::always && program_.range() > squares_range_;
+    if (worse) estimate_.move_to(starts_.centre());
+    begin_program(plan_.row().mode, !worse);
+    if (worse) sweep_.prove_next();
     return Status::more_work;
   }
   optimum.infeasible = !last;
@@ -232,19 +286,20 @@ bool Refinement::go_elsewhere(bool concluded) {
 bool Refinement::go_back() {
   if (!starts_.go_back()) return false;
   estimate_.move_to(starts_.own_pose());
-  begin_program(plan_.row().sought);
+  begin_program(plan_.row().sought, false);
+  sweep_.prove_next();
   return true;
 }
 
 /// Measures the next point of a start. After the last start the fit goes on from the best one, over all points, unless
 /// that is the optimum already found, or none was.
 Status Refinement::start_on(ModeOptimum& optimum) {
-  switch (starts_.advance(store_, sums_.model(), program_)) {
+  switch (starts_.advance(store_, sums_.model(), program_, descent_sheets_.sheets())) {
     case FurtherStarts::Outcome::running:
       return Status::more_work;
     case FurtherStarts::Outcome::better:
       estimate_.move_to(starts_.best_pose());
-      begin_program(plan_.row().sought);
+      begin_program(plan_.row().sought, false);
       sweep_.prove();
       begin_sweep();
       return Status::more_work;

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/localizer/further_starts.hpp"
-#include "core/localizer/mode_program.hpp"
+#include "core/localizer/sheet_descent.hpp"
 #include "core/localizer/refinement_phase.hpp"
 #include "core/localizer/running_sums.hpp"
 #include "core/localizer/sweep.hpp"
@@ -16,7 +16,10 @@ class Refinement {
              PointSelection& selection, RunningSums& sums, PoseEstimate& estimate, LossSchedule& loss,
              VerdictBook& verdicts);
 
-  void attach(double* rows, std::uint32_t capacity) { program_.attach(rows, capacity); }
+  void attach(double* rows, SurfacePlace* places, std::uint32_t capacity) {
+    program_.attach(rows, capacity);
+    descent_sheets_.attach(places, capacity);
+  }
   /// Forgets all points.
   void clear();
   /// A point has come, or more is wanted than what was found: what is under way is given up.
@@ -30,6 +33,8 @@ class Refinement {
   [[nodiscard]] Status advance(std::uint32_t max_points, bool concluded, ModeOptimum& optimum);
 
   [[nodiscard]] const FurtherStarts& further_starts() const { return starts_; }
+  /// Why the last refinement has not converged.
+  [[nodiscard]] FitEnd ended() const { return ended_; }
   /// Feet whose search met its cap in the last sweep.
   [[nodiscard]] std::uint32_t unproven() const { return unproven_; }
 
@@ -39,6 +44,8 @@ class Refinement {
     bool concluded;
     ModeOptimum& optimum;
   };
+  [[nodiscard]] std::uint32_t most_sweeps() const;
+  [[nodiscard]] Status given_up(FitEnd why);
   void enter(RefinementEvent event) { phase_ = next_phase(phase_, event); }
   void begin_sweep();
   std::uint32_t sweep_on(std::uint32_t max_points);
@@ -49,7 +56,8 @@ class Refinement {
   [[nodiscard]] Status least_squares_step(const Call& call);
   [[nodiscard]] bool retreat();
 
-  void begin_program(FitMode mode);
+  void settle_selection();
+  void begin_program(FitMode mode, bool there);
   [[nodiscard]] Status program_step(const Call& call);
   [[nodiscard]] Status program_optimum(const Call& call);
 
@@ -78,8 +86,11 @@ class Refinement {
   Sweep sweep_;
   Descent descent_;
   ModeProgram program_;
+  SheetDescent descent_sheets_;
   FurtherStarts starts_;
   std::uint32_t unproven_ = 0;
+  double squares_range_ = 0;  ///< range of the distances at the least-squares optimum [mm]
+  FitEnd ended_ = FitEnd::none;
 };
 
 }  // namespace bladefit

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace bladefit {
 
@@ -13,13 +12,8 @@ void StreamOptimum::stop() {
 
 /// Middle of the signed distances.
 double StreamOptimum::middle_distance(const PointStore& store, std::uint32_t stride) const {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (std::uint32_t i = 0; i < store.size(); i += stride) {
-    if (selection_.left_out(store[i], store[i].foot)) continue;
-    least = std::min(least, store[i].foot.distance);
-    most = std::max(most, store[i].foot.distance);
-  }
-  return least <= most ? 0.5 * (least + most) : 0.0;
+  const PointSelection::Span span = selection_.distances(store, stride);
+  return span.least <= span.most ? 0.5 * (span.least + span.most) : 0.0;
 }
 
 void StreamOptimum::Seeds::offer(std::uint32_t i, double how_far) {

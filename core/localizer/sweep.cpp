@@ -6,7 +6,7 @@
 namespace bladefit {
 
 void Sweep::restart(const Pose& pose) {
-  thorough_ = false;
+  thorough_ = next_proves_ = false;
   number_ = changed_ = unproven_ = 0;
   last_pose_ = Pose();
   last_step_.setZero();
@@ -43,7 +43,8 @@ void Sweep::end() {
   } else if (thorough_ && !proven_already()) {
     since_search_ = 0.0;
   }
-  thorough_ = !last_step_counts();
+  thorough_ = next_proves_ || !last_step_counts();
+  next_proves_ = false;
   changed_ = unproven_ = 0;
 }
 

@@ -13,6 +13,8 @@ namespace {
 constexpr int kLower = 6, kUpper = 7, kWeight = 8;
 /// Steps below this share of the reach are rounding; steps above the second must not raise the merit.
 constexpr double kSettledBelow = 2e-11, kCheckedAbove = 1e-6;
+/// Steps of another problem than before are trusted this share of the reach at least.
+constexpr double kTrustAnew = 1e-2;
 /// A merit may rise by this share and still count as the same.
 constexpr double kMeritRounding = 1e-12;
 
@@ -34,6 +36,7 @@ void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
   active_ = ActiveSet();
   curvature_.setZero();
   penalty_ = 0;
+  limits_ = 0;
   last_.taken = curved_ = false;
 }
 
@@ -42,6 +45,11 @@ void BoundedFit::resume(std::uint32_t count) {
   trust_ = reach_;
   curvature_.setZero();
   last_.taken = curved_ = false;
+}
+
+void BoundedFit::compare_anew() {
+  last_.taken = false;
+  trust_ = std::max(trust_, kTrustAnew * reach_);
 }
 
 double BoundedFit::set_weight(std::uint32_t i, double weight) {
@@ -74,6 +82,23 @@ void BoundedFit::skip_row(std::uint32_t i) {
   for (int k = 0; k < 6; ++k) column(k)[i] = 0.0;
   column(kLower)[i] = -kInfinity;
   column(kUpper)[i] = kInfinity;
+}
+
+void BoundedFit::set_limit(std::uint32_t k, double value, const Vec6& gradient) {
+  const std::uint32_t row = count_ + k;
+  const Vec6 free = basis_.directions.transpose() * gradient;
+  for (int j = 0; j < 6; ++j) column(j)[row] = free[j];
+  column(kLower)[row] = -kInfinity;
+  column(kUpper)[row] = -value;
+}
+
+void BoundedFit::free_limit(std::uint32_t k) { skip_row(count_ + k); }
+
+/// By how much the most violated limit is [mm]; 0 where none is.
+double BoundedFit::broken_limit() const {
+  double broken = 0.0;
+  for (std::uint32_t k = 0; k < limits_; ++k) broken = std::max(broken, -column(kUpper)[count_ + k]);
+  return broken;
 }
 
 /// Of a row that counts; NaN of one that does not.
@@ -113,8 +138,8 @@ double BoundedFit::slack(std::uint32_t i) const {
 }
 
 double BoundedFit::merit(const QuadraticModel& model) const {
-  if (mode_ != FitMode::constrained) return value();
-  double violation = 0.0;
+  if (mode_ != FitMode::constrained) return value() + penalty_ * broken_limit();
+  double violation = broken_limit();
   for (std::uint32_t i = 0; i < count_; ++i) violation = std::max({violation, column(kLower)[i], -column(kUpper)[i]});
   return model.half_square + penalty_ * violation;
 }
@@ -123,14 +148,15 @@ Constraints BoundedFit::constraints() const {
   Constraints c;
   c.variables = 6;
   c.rows = {memory_,
-            static_cast<std::ptrdiff_t>(capacity_),
-            static_cast<int>(count_),
+            static_cast<std::ptrdiff_t>(stride()),
+            static_cast<int>(count_ + limits_),
             6,
             column(kLower),
             column(kUpper),
             nullptr,
             -1,
-            -1};
+            -1,
+            static_cast<int>(limits_)};
   for (int k = 0; k < 6; ++k) {
     c.upper[k] = k < basis_.free ? trust_ : 0.0;
     c.lower[k] = -c.upper[k];
@@ -173,7 +199,7 @@ ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
     Vec8 gradient = levels;
     for (int k = 0; k < active_.count; ++k) {
       const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
-      if (entry.index >= static_cast<int>(count_)) continue;
+      if (entry.index >= static_cast<int>(count_ + limits_)) continue;
       const HalfSpace h = half_space(c, entry.index, entry.side);
       hessian += weight * h.normal * h.normal.transpose();
       gradient -= weight * h.offset * h.normal;
@@ -181,7 +207,8 @@ ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
     if (!CholeskyFactor<kMaxVariables>(hessian).positive_definite()) continue;
     ActiveSetResult result = minimize_quadratic(hessian, gradient, c, active_);
     if (!succeeded(result.status)) break;
-    result.objective = levels.dot(result.x);
+    const Vec6 x = result.x.head<6>();
+    result.objective = levels.dot(result.x) + 0.5 * x.dot(curvature_ * x);  // what the step promises
     result.residuals = kkt_residuals(nullptr, levels, c, result.x, result.active);
     return result;
   }
@@ -199,6 +226,10 @@ ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
   const Mat6 exact = basis.transpose() * (model.gauss + model.bend) * basis + curvature_;
   hessian.topLeftCorner<6, 6>() = Cholesky(exact).positive_definite() ? exact : gauss;
   return minimize_quadratic(hessian, gradient, constraints(), active_);
+}
+
+ActiveSetResult BoundedFit::solve(const QuadraticModel& model) const {
+  return mode_ == FitMode::constrained ? solve_bounds(model) : solve_levels();
 }
 
 /// True where the last step raised the merit: a quarter of it, from where it started.
@@ -232,28 +263,47 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
     return step;
   }
   adapt_trust(present);
-  const ActiveSetResult result = mode_ == FitMode::constrained ? solve_bounds(model) : solve_levels();
+  ActiveSetResult result = solve(model);
+  if (!succeeded(result.status) && limits_ > 0 && trust_ < reach_) {
+    trust_ = reach_;  // a limit that was broken by more than a step may be long
+    result = solve(model);
+  }
   curvature_.setZero();
   step.status = result.status;
   if (!succeeded(result.status)) return step;
   active_ = result.active;
   stationarity_ = result.residuals.stationarity;
-  for (int k = 0; k < active_.count; ++k)
-    penalty_ = std::max(penalty_, 10.0 * active_.entries[static_cast<std::size_t>(k)].multiplier);
+  raise_penalties();
   step.x = basis_.directions * result.x.head<6>();
   step.settled = step.x.norm() <= kSettledBelow * reach_;
   last_.taken = true;
-  last_.merit = mode_ == FitMode::constrained ? merit(model) : present;
+  last_.merit = merit(model);
   last_.promise = result.objective;
   last_.x = step.x;
   return step;
+}
+
+void BoundedFit::raise_penalties() {
+  for (int k = 0; k < active_.count; ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    penalty_ = std::max(penalty_, 10.0 * entry.multiplier);
+  }
+}
+
+std::uint32_t BoundedFit::active_limits() const {
+  std::uint32_t count = 0;
+  for (int k = 0; k < active_.count; ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    if (!is_distance(entry) && entry.index < static_cast<int>(count_ + limits_) && entry.multiplier > 0.0) ++count;
+  }
+  return count;
 }
 
 ActiveRows BoundedFit::active_rows() const {
   ActiveRows out;
   for (int k = 0; k < active_.count && out.count < out.index.size(); ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
-    if (entry.index >= static_cast<int>(count_)) continue;  // the bound of a step
+    if (!is_distance(entry)) continue;  // a limit, or the bound of a step
     out.index[out.count] = static_cast<std::uint32_t>(entry.index);
     out.multiplier[out.count] = entry.multiplier;
     out.sign[out.count] = entry.side == Side::upper ? 1 : -1;

@@ -13,8 +13,11 @@ namespace bladefit {
 /// its Lagrangian. Rows live in the caller's memory.
 class BoundedFit {
  public:
-  /// Doubles of the caller's memory a point needs: six of its gradient, two bounds, its weight.
-  static constexpr std::size_t kDoublesPerPoint = 9;
+  /// Conditions beside the distances that steps must keep.
+  static constexpr std::uint32_t kMostLimits = 16;
+  /// Doubles of the caller's memory for `capacity` points: six of a gradient, two bounds, a weight for each and for the
+  /// limits.
+  static constexpr std::uint64_t doubles_for(std::uint64_t capacity) { return 9 * (capacity + kMostLimits); }
 
   void attach(double* memory, std::uint32_t capacity);
 
@@ -23,6 +26,8 @@ class BoundedFit {
   void begin(FitMode mode, std::uint32_t count, double reach);
   /// Goes on with `count` points, some of them new: from the present active set, with nothing to compare a step with.
   void resume(std::uint32_t count);
+  /// The rows are of another problem than before: the next step is not compared with the last one.
+  void compare_anew();
   [[nodiscard]] FitMode mode() const { return mode_; }
 
   /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again; a point of
@@ -36,6 +41,14 @@ class BoundedFit {
   /// Point i does not count.
   void skip_row(std::uint32_t i);
 
+  /// Limit number k < count of limits at the present pose: value + gradient x <= 0 for a step x. [mm], gradient of unit
+  /// length.
+  void set_limit(std::uint32_t k, double value, const Vec6& gradient);
+  /// Limit k binds nothing at the present pose.
+  void free_limit(std::uint32_t k);
+  /// So many limits; each is set or freed before a step.
+  void set_limits(std::uint32_t count) { limits_ = count; }
+
   struct Step {
     Status status = Status::ok;  ///< of the program; not ok: no step
     Vec6 x = Vec6::Zero();       ///< from the pose of `from_last` or the present one
@@ -48,6 +61,8 @@ class BoundedFit {
 
   /// At the present rows: max |d|, max d - min d, max |d| / w, or for constrained max |d| / tolerance.
   [[nodiscard]] double value() const;
+  /// What a step must not raise: the value, in constrained the sum of squares, and a penalty for what it breaks.
+  [[nodiscard]] double merit(const QuadraticModel& model) const;
 
   /// Smallest and largest signed distance [mm].
   struct Extremes {
@@ -57,6 +72,8 @@ class BoundedFit {
   /// How far row i is from its bound, in its own weight; infinite where it does not count.
   [[nodiscard]] double slack(std::uint32_t i) const;
 
+  /// How many limits the solution of the last program rests on.
+  [[nodiscard]] std::uint32_t active_limits() const;
   /// The rows that the solution of the last program rests on.
   [[nodiscard]] ActiveRows active_rows() const;
   /// Of the last program, at the optimum also of the fit: relative stationarity of the Karush-Kuhn-Tucker conditions.
@@ -67,21 +84,28 @@ class BoundedFit {
   void adapt_trust(double merit);
   [[nodiscard]] Constraints constraints() const;
   [[nodiscard]] Vec8 set_levels(Constraints& constraints) const;
+  [[nodiscard]] ActiveSetResult solve(const QuadraticModel& model) const;
   [[nodiscard]] ActiveSetResult solve_levels() const;
   [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
   [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
   [[nodiscard]] double distance(std::uint32_t i) const;
-  [[nodiscard]] double merit(const QuadraticModel& model) const;
-  [[nodiscard]] double* column(int k) const { return memory_ + static_cast<std::size_t>(k) * capacity_; }
+  [[nodiscard]] double broken_limit() const;
+  void raise_penalties();
+  /// Of the active set: a row that bounds a distance.
+  [[nodiscard]] bool is_distance(const ActiveSet::Entry& entry) const {
+    return entry.index < static_cast<int>(count_);
+  }
+  [[nodiscard]] std::size_t stride() const { return std::size_t{capacity_} + kMostLimits; }
+  [[nodiscard]] double* column(int k) const { return memory_ + static_cast<std::size_t>(k) * stride(); }
 
   double* memory_ = nullptr;
-  std::uint32_t capacity_ = 0, count_ = 0;
+  std::uint32_t capacity_ = 0, count_ = 0, limits_ = 0;
   FitMode mode_ = FitMode::minimax;
   MotionBasis basis_;             ///< the unknowns are y in x = directions y
   double reach_ = 0, trust_ = 0;  ///< trust: how far the expansions have held [mm]
   ActiveSet active_;
   Mat6 curvature_ = Mat6::Zero();  ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points
-  double penalty_ = 0;             ///< of a violated tolerance, above the sum of the multipliers
+  double penalty_ = 0;             ///< of a violated tolerance or limit, above the largest of the multipliers
   bool curved_ = false;            ///< linear programs have promised too much: their curvature is taken into account
   struct LastStep {
     bool taken = false;

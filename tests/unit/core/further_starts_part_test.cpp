@@ -25,7 +25,7 @@ LocalizerConfig started_config() {
 struct Sought {
   Sought()
       : parts(reference_design("dtmb4119").image(), started_config()),
-        rows(BoundedFit::kDoublesPerPoint * 60),
+        rows(BoundedFit::doubles_for(60)),
         program(parts->problem, parts->plan),
         starts(parts->problem, parts->plan, parts->finder, parts->selection) {
     program.attach(rows.data(), 60);

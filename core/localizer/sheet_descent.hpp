@@ -1,0 +1,70 @@
+#pragma once
+#include "core/localizer/foot_finder.hpp"
+#include "core/localizer/kept_sheets.hpp"
+#include "core/localizer/mode_program.hpp"
+
+namespace bladefit {
+
+/// The descent of a mode's objective over poses where every foot is the one that the conventions choose: the nearest
+/// local minimum that faces the probe. Between two such poses points keep their sheets. Where a search of every foot
+/// finds others, the pose counts if the objective, with these, is below that of the last such pose; else the program
+/// goes back there, and the feet that would avert themselves from their probes on the way are held to face them: the
+/// objective jumps where they cease to, so that its least value may lie at that limit. The merit of the poses that
+/// count never rises, and what is held only grows, so that it ends.
+class SheetDescent {
+ public:
+  SheetDescent(const FitProblem& problem, const FootFinder& finder) : problem_(problem), finder_(finder) {}
+
+  /// As KeptSheets::attach().
+  void attach(SurfacePlace* places, std::uint32_t capacity) { sheets_.attach(places, capacity); }
+  [[nodiscard]] KeptSheets& sheets() { return sheets_; }
+
+  /// A program begins with the feet that the points have. `there`: at the pose where the last one ended, so that what
+  /// was held there is held on.
+  void begin(const PointStore& store, bool there);
+  /// A sweep begins.
+  void begin_sweep(ModeProgram& program);
+  /// A point was measured in it. `counts`: in the program.
+  void note(std::uint32_t index, const StoredPoint& point, const Pose& pose, const Measurement& m, bool counts,
+            ModeProgram& program);
+
+  enum class Outcome : std::uint8_t {
+    same,     ///< no foot is another one
+    adopted,  ///< some are, and the pose counts
+    back,     ///< it does not: go on from proven_pose(), whose sheets are kept again
+    stuck     ///< nor is there anything else to be held, or this has gone on too long
+  };
+  /// After a sweep at `pose` of this merit. `proof`: every foot was searched.
+  [[nodiscard]] Outcome weigh(bool proof, double merit, const Pose& pose, std::uint32_t count);
+  [[nodiscard]] const Pose& proven_pose() const { return proven_pose_; }
+  /// The step of the program counts.
+  void accept(std::uint32_t count) { sheets_.accept(count); }
+
+ private:
+  [[nodiscard]] bool hold_others();
+  void release_others();
+
+  static constexpr std::uint32_t kMost = BoundedFit::kMostLimits;
+  /// A few points by their index.
+  struct Points {
+    std::array<std::uint32_t, kMost> index{};
+    std::uint32_t count = 0;
+    [[nodiscard]] std::uint32_t find(std::uint32_t i) const;
+    [[nodiscard]] bool holds(std::uint32_t i) const { return find(i) < count; }
+    /// False where there is no room.
+    bool add(std::uint32_t i);
+  };
+
+  const FitProblem& problem_;
+  const FootFinder& finder_;
+  KeptSheets sheets_;
+  Points others_;  ///< whose foot in this sweep is on another sheet
+  Points held_;    ///< whose foot is held to face its probe, or to be averted no farther
+  std::array<double, kMost> allowed_{};  ///< n . a of each at most; NaN until known
+  bool any_other_ = false, fresh_ = true;
+  std::uint32_t rounds_ = 0;
+  Pose proven_pose_;
+  double proven_merit_ = 0;
+};
+
+}  // namespace bladefit
