@@ -49,6 +49,8 @@ class FurtherStarts {
  private:
   void begin_start(ModeProgram& program);
   void sweep_on(PointStore& store, ModeProgram& program, KeptSheets& sheets);
+  [[nodiscard]] bool matters(const ModeProgram& program, std::uint32_t i, const Measurement& m) const;
+  void take_in(PointStore& store, std::uint32_t i, const Measurement& m, ModeProgram& program, KeptSheets& sheets);
   void finish_sweep(const QuadraticModel& model, ModeProgram& program, KeptSheets& sheets);
   void end_start(double value, ModeProgram& program);
 
@@ -67,7 +69,7 @@ class FurtherStarts {
   struct Start {
     std::uint32_t number = 0, sweeps = 0, cursor = 0;
     std::uint32_t others = 0, proofs = 0;  ///< feet that were found on other sheets, and sweeps that looked for them
-    bool searches = true;                  ///< feet of this sweep
+    bool proves = false;                   ///< feet of this sweep are searched
     Pose pose, last_pose;
   };
 

@@ -36,6 +36,11 @@ double ModeProgram::assign_regions(PointStore& store, VerdictBook& verdicts) {
   return change;
 }
 
+double ModeProgram::unit_of(std::uint32_t index) const {
+  if (fit_.mode() == FitMode::range) return 0.5;
+  return fit_.mode() == FitMode::minimax ? 1.0 : fit_.weight(index);
+}
+
 double ModeProgram::range() const {
   const BoundedFit::Extremes found = fit_.extremes();
   return found.most - found.least;

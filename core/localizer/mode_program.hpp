@@ -29,6 +29,8 @@ class ModeProgram {
   void set_limit(std::uint32_t k, double value, const Vec6& gradient) { fit_.set_limit(k, value, gradient); }
   void free_limit(std::uint32_t k) { fit_.free_limit(k); }
   [[nodiscard]] std::uint32_t held_feet() const { return fit_.active_limits(); }
+  /// What the distance of a point is compared with, at a value of 1.
+  [[nodiscard]] double unit_of(std::uint32_t index) const;
   /// Range of the distances at the present rows [mm].
   [[nodiscard]] double range() const;
   [[nodiscard]] double merit(const QuadraticModel& model) const { return fit_.merit(model); }

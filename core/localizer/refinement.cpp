@@ -132,13 +132,14 @@ void Refinement::take_in(std::uint32_t index, const Measurement& m) {
 Status Refinement::finish_sweep(const Call& call) {
   sums_.commit();
   estimate_.redetermine();
+  proof_wanted_ = false;
   Status status = phase_ == Phase::mode ? program_step(call) : least_squares_step(call);
   if (status == Status::more_work && sweep_.number() >= most_sweeps()) status = given_up(FitEnd::sweeps_used_up);
   if (status == Status::iteration_cap && go_elsewhere(call.concluded)) status = Status::more_work;
   unproven_ = sweep_.unproven();
   if (status == Status::ok && unproven_ > 0) status = given_up(FitEnd::feet_unproven);
   call.optimum.infeasible = call.optimum.infeasible && status == Status::ok;
-  sweep_.end();
+  sweep_.end(proof_wanted_);
   begin_sweep();
   return status;
 }
@@ -168,6 +169,7 @@ Status Refinement::least_squares_step(const Call& call) {
   sweep_.set_last_pose(estimate_.pose());
   const double step = solve(call.concluded);
   sweep_.set_last_step(motion_between(sweep_.last_pose(), estimate_.pose(), problem_.frame));
+  proof_wanted_ = !sweep_.last_step_counts();
   if (!sweep_.proves() || step > tuning::kConvergedBelow * problem_.frame.length) return Status::more_work;
   if (!estimate_.determined()) return Status::underdetermined;
   if (plan_.bounded()) {
@@ -177,6 +179,7 @@ Status Refinement::least_squares_step(const Call& call) {
     return Status::more_work;
   }
   if (!loss_.adapt(store_, selection_)) return Status::ok;
+  proof_wanted_ = false;
   sweep_.begin_again();  // the sums are of the old loss
   return Status::more_work;
 }
@@ -187,6 +190,7 @@ bool Refinement::retreat() {
   const bool comparable = sweep_.number() > 1 && model.count == descent_.count && sweep_.last_step_counts();
   if (!comparable || model.half_square <= descent_.value * (1.0 + 1e-9)) return false;
   sweep_.set_last_step(0.25 * sweep_.last_step());
+  proof_wanted_ = !sweep_.last_step_counts();
   estimate_.move_to(problem_.moved_and_held(sweep_.last_pose(), sweep_.last_step()));
   return true;
 }
@@ -205,6 +209,7 @@ void Refinement::begin_program(FitMode mode, bool there) {
   enter(Event::program_began);
   program_.begin(mode, store_.size());
   descent_sheets_.begin(store_, there);
+  proof_wanted_ = false;
   sweep_.begin_again();  // the next sweep takes rows at the same pose: no foot needs a search
 }
 
@@ -221,6 +226,7 @@ Status Refinement::program_step(const Call& call) {
     return Status::more_work;
   }
   const double tr_value = program_.value();
+  if (getenv("TRACE")) { std::uint32_t w = 0; for (std::uint32_t i = 0; i < store_.size(); ++i) if (!selection_.left_out(store_[i], store_[i].foot) && std::abs(store_[i].foot.distance) > std::abs(store_[w].foot.distance)) w = i; const Foot& f = store_[w].foot; fprintf(stderr, "TRACE worst %u d %.9g kind %d at %.6f %.6f n.a %.4f limits %u\n", store_[w].sequence, f.distance, (int)f.kind, f.u, f.v, f.normal.dot(estimate_.pose().rotation * store_[w].approach), program_.held_feet()); }
   const BoundedFit::Step step = program_.step(sums_.model());
   if (getenv("TRACE")) fprintf(stderr, "TRACE sweep %u mode %d thorough %d others %u value %.9g status %d step %.3g from_last %d settled %d\n", sweep_.number(), (int)program_.mode(), (int)sweep_.proof(), sweep_.changed(), tr_value, (int)step.status, step.x.norm(), (int)step.from_last, (int)step.settled);
   if (!step.from_last) descent_sheets_.accept(store_.size());
@@ -229,6 +235,7 @@ Status Refinement::program_step(const Call& call) {
   if (!step.from_last) sweep_.set_last_pose(estimate_.pose());
   estimate_.move_to(problem_.moved_and_held(sweep_.last_pose(), step.x));
   sweep_.set_last_step(step.x);
+  proof_wanted_ = step.settled;
   estimate_.set_last_step(step.x.norm());
   return Status::more_work;
 }
@@ -255,7 +262,7 @@ Status Refinement::program_optimum(const Call& call) {
     const bool worse = plan_.row().then == ModeRow::Then::always && program_.range() > squares_range_;
     if (worse) estimate_.move_to(starts_.centre());
     begin_program(plan_.row().mode, !worse);
-    if (worse) sweep_.prove_next();
+    if (worse) proof_wanted_ = true;
     return Status::more_work;
   }
   optimum.infeasible = !last;
@@ -287,7 +294,7 @@ bool Refinement::go_back() {
   if (!starts_.go_back()) return false;
   estimate_.move_to(starts_.own_pose());
   begin_program(plan_.row().sought, false);
-  sweep_.prove_next();
+  proof_wanted_ = true;
   return true;
 }
 

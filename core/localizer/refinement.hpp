@@ -90,6 +90,7 @@ class Refinement {
   FurtherStarts starts_;
   std::uint32_t unproven_ = 0;
   double squares_range_ = 0;  ///< range of the distances at the least-squares optimum [mm]
+  bool proof_wanted_ = false;  ///< the next sweep is to prove every foot
   FitEnd ended_ = FitEnd::none;
 };
 

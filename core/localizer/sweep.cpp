@@ -6,7 +6,7 @@
 namespace bladefit {
 
 void Sweep::restart(const Pose& pose) {
-  thorough_ = next_proves_ = false;
+  thorough_ = false;
   number_ = changed_ = unproven_ = 0;
   last_pose_ = Pose();
   last_step_.setZero();
@@ -37,14 +37,13 @@ void Sweep::count(const Measurement& m) {
   if (!m.proven) ++unproven_;
 }
 
-void Sweep::end() {
+void Sweep::end(bool rests) {
   if (unproven_ > 0) {
     since_search_ = std::numeric_limits<double>::infinity();
   } else if (thorough_ && !proven_already()) {
     since_search_ = 0.0;
   }
-  thorough_ = next_proves_ || !last_step_counts();
-  next_proves_ = false;
+  thorough_ = rests;
   changed_ = unproven_ = 0;
 }
 

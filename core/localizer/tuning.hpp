@@ -91,7 +91,7 @@ inline constexpr double kMeritRounding = 1e-12;
 /// Sweeps of one program. Some thirty are usual; a point beyond where its probe can see it may ask for many.
 inline constexpr std::uint32_t kProgramSweeps = 300;
 /// Times that the feet of a program are found on other sheets, at most.
-inline constexpr std::uint32_t kSheetRounds = 40;
+inline constexpr std::uint32_t kSheetRounds = 20;
 
 // Further starts
 /// A start looks at every point where there are no more than these, and else at every second, third...
@@ -100,6 +100,10 @@ inline constexpr std::uint32_t kStartPoints = 4096;
 inline constexpr double kStartDistance = 1.5;
 /// Sweeps of one start: six to ten are usual.
 inline constexpr std::uint32_t kStartSweeps = 30;
+/// Points farther out than this share of the optimum found before are searched at a start, others tracked to it.
+inline constexpr double kStartSearch = 0.7;
+/// Times that the feet of a start are proven.
+inline constexpr std::uint32_t kStartProofs = 2;
 /// Values that differ by less than this share are the same optimum.
 inline constexpr double kSameOptimum = 1e-7;
 

@@ -107,9 +107,10 @@ class Experiment {
     t.total_s += fit.cpu_s;
     const bool well = fit.answered() && fit.complaint.empty() && fit.cpu_s <= kMostSeconds;
     if (well && !wanted_.list) return;
-    std::printf("%3llu %-12s %-4s %-30s %s status %d value %.9g (%.9g) searches %u unproven %u %.3f s %s | %s\n",
+    std::printf("%3llu %-12s %-4s %-30s %s status %d %s held %u value %.9g (%.9g) searches %u unproven %u %.3f s %s | %s\n",
                 static_cast<unsigned long long>(seed), source.c.name.c_str(), source.subset.c_str(), kind.c_str(),
-                fit.answered() ? "answered  " : "UNANSWERED", static_cast<int>(fit.report.status), fit.value,
+                fit.answered() ? "answered  " : "UNANSWERED", static_cast<int>(fit.report.status),
+                std::string(word_of(fit.report.ended)).c_str(), fit.report.held_feet, fit.value,
                 fit.least_squares_value, fit.report.searches, fit.report.unproven, fit.cpu_s, fit.complaint.c_str(),
                 pattern.text.c_str());
     std::fflush(stdout);
