@@ -101,7 +101,7 @@ void stage_made(LocalizerParts& p, const StoredPoint& made, Search search) {
 
 std::size_t Localizer::memory_required(const LocalizerConfig& config) {
   const bool bounded = config.mode != FitMode::least_squares;
-  const std::uint64_t rows = bounded ? BoundedFit::doubles_for(config.capacity) : 0;
+  const std::uint64_t rows = bounded ? BoundRows::doubles_for(config.capacity) : 0;
   const std::uint64_t places = bounded ? KeptSheets::kPlacesPerPoint : 0;
   const std::uint64_t points = config.capacity;
   const std::uint64_t size = rounded_up(sizeof(Localizer)) + rounded_up(sizeof(LocalizerParts)) +
@@ -126,7 +126,7 @@ Status Localizer::create(std::span<std::byte> memory, const DesignImage& design,
   parts->store.attach(points, order, config.capacity);
   parts->verdicts.attach(placed<std::uint32_t>(place, config.capacity), config.capacity);
   if (parts->plan.bounded()) {
-    auto* rows = placed<double>(place, BoundedFit::doubles_for(config.capacity));
+    auto* rows = placed<double>(place, BoundRows::doubles_for(config.capacity));
     auto* places = placed<SurfacePlace>(place, KeptSheets::kPlacesPerPoint * config.capacity);
     parts->refinement.attach(rows, places, config.capacity);
   }

@@ -42,7 +42,7 @@ double ModeProgram::unit_of(std::uint32_t index) const {
 }
 
 double ModeProgram::range() const {
-  const BoundedFit::Extremes found = fit_.extremes();
+  const BoundRows::Extremes found = fit_.extremes();
   return found.most - found.least;
 }
 

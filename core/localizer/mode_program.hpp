@@ -10,7 +10,7 @@ class ModeProgram {
  public:
   ModeProgram(const FitProblem& problem, const ModePlan& plan) : problem_(problem), plan_(plan) {}
 
-  /// `rows`: BoundedFit::doubles_for(capacity); they outlive the program.
+  /// `rows`: BoundRows::doubles_for(capacity); they outlive the program.
   void attach(double* rows, std::uint32_t capacity) { fit_.attach(rows, capacity); }
 
   /// A refinement begins.

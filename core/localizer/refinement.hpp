@@ -1,9 +1,6 @@
 #pragma once
-#include "core/localizer/further_starts.hpp"
-#include "core/localizer/sheet_descent.hpp"
+#include "core/localizer/mode_fit.hpp"
 #include "core/localizer/refinement_phase.hpp"
-#include "core/localizer/running_sums.hpp"
-#include "core/localizer/sweep.hpp"
 
 namespace bladefit {
 
@@ -16,10 +13,8 @@ class Refinement {
              PointSelection& selection, RunningSums& sums, PoseEstimate& estimate, LossSchedule& loss,
              VerdictBook& verdicts);
 
-  void attach(double* rows, SurfacePlace* places, std::uint32_t capacity) {
-    program_.attach(rows, capacity);
-    descent_sheets_.attach(places, capacity);
-  }
+  /// As ModeFit::attach().
+  void attach(double* rows, SurfacePlace* places, std::uint32_t capacity) { mode_.attach(rows, places, capacity); }
   /// Forgets all points.
   void clear();
   /// A point has come, or more is wanted than what was found: what is under way is given up.
@@ -32,7 +27,7 @@ class Refinement {
   /// directions), more_work, or iteration_cap.
   [[nodiscard]] Status advance(std::uint32_t max_points, bool concluded, ModeOptimum& optimum);
 
-  [[nodiscard]] const FurtherStarts& further_starts() const { return starts_; }
+  [[nodiscard]] const FurtherStarts& further_starts() const { return mode_.further_starts(); }
   /// Why the last refinement has not converged.
   [[nodiscard]] FitEnd ended() const { return ended_; }
   /// Feet whose search met its cap in the last sweep.
@@ -44,9 +39,10 @@ class Refinement {
     bool concluded;
     ModeOptimum& optimum;
   };
-  [[nodiscard]] std::uint32_t most_sweeps() const;
-  [[nodiscard]] Status given_up(FitEnd why);
   void enter(RefinementEvent event) { phase_ = next_phase(phase_, event); }
+  [[nodiscard]] Status give_up(FitEnd why);
+  [[nodiscard]] Status follow(ModeFit::Next next);
+  [[nodiscard]] Status start_on(const Call& call);
   void begin_sweep();
   std::uint32_t sweep_on(std::uint32_t max_points);
   void take_in(std::uint32_t index, const Measurement& m);
@@ -55,17 +51,6 @@ class Refinement {
 
   [[nodiscard]] Status least_squares_step(const Call& call);
   [[nodiscard]] bool retreat();
-
-  void settle_selection();
-  void begin_program(FitMode mode, bool there);
-  [[nodiscard]] Status program_step(const Call& call);
-  [[nodiscard]] Status program_optimum(const Call& call);
-
-  [[nodiscard]] bool begin_starts(double own_value, bool concluded);
-  [[nodiscard]] bool seek_better(double value, bool concluded);
-  [[nodiscard]] bool go_elsewhere(bool concluded);
-  [[nodiscard]] bool go_back();
-  [[nodiscard]] Status start_on(ModeOptimum& optimum);
 
   /// The sum of squares before the last step.
   struct Descent {
@@ -81,16 +66,11 @@ class Refinement {
   RunningSums& sums_;
   PoseEstimate& estimate_;
   LossSchedule& loss_;
-  VerdictBook& verdicts_;
   RefinementPhase phase_ = RefinementPhase::idle;
   Sweep sweep_;
   Descent descent_;
-  ModeProgram program_;
-  SheetDescent descent_sheets_;
-  FurtherStarts starts_;
+  ModeFit mode_;
   std::uint32_t unproven_ = 0;
-  double squares_range_ = 0;  ///< range of the distances at the least-squares optimum [mm]
-  bool proof_wanted_ = false;  ///< the next sweep is to prove every foot
   FitEnd ended_ = FitEnd::none;
 };
 

@@ -13,11 +13,14 @@ namespace bladefit {
 /// count never rises, and what is held only grows, so that it ends.
 class SheetDescent {
  public:
-  SheetDescent(const FitProblem& problem, const FootFinder& finder) : problem_(problem), finder_(finder) {}
+  explicit SheetDescent(const FitProblem& problem) : problem_(problem) {}
 
   /// As KeptSheets::attach().
   void attach(SurfacePlace* places, std::uint32_t capacity) { sheets_.attach(places, capacity); }
+  /// For another search that needs sheets, between two programs.
   [[nodiscard]] KeptSheets& sheets() { return sheets_; }
+  /// The place that the foot of a point is sought from.
+  [[nodiscard]] const SurfacePlace& kept(std::uint32_t index) const { return sheets_.kept(index); }
 
   /// A program begins with the feet that the points have. `there`: at the pose where the last one ended, so that what
   /// was held there is held on.
@@ -44,7 +47,7 @@ class SheetDescent {
   [[nodiscard]] bool hold_others();
   void release_others();
 
-  static constexpr std::uint32_t kMost = BoundedFit::kMostLimits;
+  static constexpr std::uint32_t kMost = BoundRows::kMostLimits;
   /// A few points by their index.
   struct Points {
     std::array<std::uint32_t, kMost> index{};
@@ -56,7 +59,6 @@ class SheetDescent {
   };
 
   const FitProblem& problem_;
-  const FootFinder& finder_;
   KeptSheets sheets_;
   Points others_;  ///< whose foot in this sweep is on another sheet
   Points held_;    ///< whose foot is held to face its probe, or to be averted no farther

@@ -58,7 +58,7 @@ void StreamOptimum::look_at(const PointStore& store, std::uint32_t index, const 
   bool violated = weight > 0.0 && program_.violated(m.foot.distance, weight) && !program_.holds(index);
   if (violated) program_.hold(index);
   if (feasibility_.active() && !feasibility_.holds(index)) {
-    const Foot foot = finder_.find(point, feasibility_.pose(), Search::past_margin).foot;
+    const Foot foot = finder_.find(point, feasibility_.pose(), Search::keep).foot;
     const double bound = plan_.weight(foot);
     if (bound > 0.0 && feasibility_.violated(foot.distance, bound)) {
       feasibility_.hold(index);
@@ -68,12 +68,13 @@ void StreamOptimum::look_at(const PointStore& store, std::uint32_t index, const 
   looked_at_ = violated ? 0 : std::min(looked_at_ + 1, store.size());
 }
 
-/// The rows of the working set at the pose of the program.
+/// The rows of the working set at the pose of the program. Each point keeps the sheet of its present foot, so that the
+/// program is one problem: which foot is right is found when the point is looked at.
 void StreamOptimum::set_rows(BoundTracker& tracker, const PointStore& store) const {
   const MotionBasis basis = free_motions(tracker.pose(), problem_.config.locked, problem_.frame);
   for (std::uint32_t place = 0; place < tracker.count(); ++place) {
     const StoredPoint& point = store[tracker.point(place)];
-    const Measurement m = finder_.find(point, tracker.pose(), Search::past_margin);
+    const Measurement m = finder_.find(point, tracker.pose(), Search::keep);
     const double weight = plan_.weight(m.foot);
     if (selection_.left_out(point, m.foot) || weight == 0.0) {
       tracker.skip_row(place);

@@ -6,7 +6,7 @@
 namespace bladefit {
 
 void Sweep::restart(const Pose& pose) {
-  thorough_ = false;
+  thorough_ = next_proves_ = false;
   number_ = changed_ = unproven_ = 0;
   last_pose_ = Pose();
   last_step_.setZero();
@@ -37,19 +37,21 @@ void Sweep::count(const Measurement& m) {
   if (!m.proven) ++unproven_;
 }
 
-void Sweep::end(bool rests) {
+void Sweep::end() {
   if (unproven_ > 0) {
     since_search_ = std::numeric_limits<double>::infinity();
   } else if (thorough_ && !proven_already()) {
     since_search_ = 0.0;
   }
-  thorough_ = rests;
+  thorough_ = next_proves_;
+  next_proves_ = false;
   changed_ = unproven_ = 0;
 }
 
 void Sweep::begin_again() {
   last_step_.setConstant(problem_.frame.length);
   number_ = 0;
+  next_proves_ = false;
 }
 
 bool Sweep::last_step_counts() const { return last_step_.norm() > tuning::kCheckedAbove * problem_.frame.length; }

@@ -4,6 +4,7 @@
 #include "core/fit/quadratic_model.hpp"
 #include "core/programs/active_rows.hpp"
 #include "core/programs/active_set.hpp"
+#include "core/programs/bound_rows.hpp"
 
 namespace bladefit {
 
@@ -13,13 +14,8 @@ namespace bladefit {
 /// its Lagrangian. Rows live in the caller's memory.
 class BoundedFit {
  public:
-  /// Conditions beside the distances that steps must keep.
-  static constexpr std::uint32_t kMostLimits = 16;
-  /// Doubles of the caller's memory for `capacity` points: six of a gradient, two bounds, a weight for each and for the
-  /// limits.
-  static constexpr std::uint64_t doubles_for(std::uint64_t capacity) { return 9 * (capacity + kMostLimits); }
-
-  void attach(double* memory, std::uint32_t capacity);
+  /// `memory`: BoundRows::doubles_for(capacity); it outlives this.
+  void attach(double* memory, std::uint32_t capacity) { rows_.attach(memory, capacity); }
 
   /// Begins a fit of mode minimax, range, min_tolerance or constrained over `count` points. `reach` [mm]: the pose
   /// moves no farther in one step.
@@ -32,22 +28,22 @@ class BoundedFit {
 
   /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again; a point of
   /// weight 0 must be skipped. Returns how much it changed, relative to the larger one.
-  double set_weight(std::uint32_t i, double weight);
-  [[nodiscard]] double weight(std::uint32_t i) const;
+  double set_weight(std::uint32_t i, double weight) { return rows_.set_weight(i, weight); }
+  [[nodiscard]] double weight(std::uint32_t i) const { return rows_.weight(i); }
   /// Steps go along the free directions of the basis only. Given before the rows of a pose.
   void set_basis(const MotionBasis& basis);
   /// The row of point i at the present pose.
   void set_row(std::uint32_t i, const DistanceRow& row);
   /// Point i does not count.
-  void skip_row(std::uint32_t i);
+  void skip_row(std::uint32_t i) { rows_.skip(i); }
 
   /// Limit number k < count of limits at the present pose: value + gradient x <= 0 for a step x. [mm], gradient of unit
   /// length.
   void set_limit(std::uint32_t k, double value, const Vec6& gradient);
   /// Limit k binds nothing at the present pose.
-  void free_limit(std::uint32_t k);
+  void free_limit(std::uint32_t k) { rows_.free_limit(k); }
   /// So many limits; each is set or freed before a step.
-  void set_limits(std::uint32_t count) { limits_ = count; }
+  void set_limits(std::uint32_t count) { rows_.set_limits(count); }
 
   struct Step {
     Status status = Status::ok;  ///< of the program; not ok: no step
@@ -64,11 +60,8 @@ class BoundedFit {
   /// What a step must not raise: the value, in constrained the sum of squares, and a penalty for what it breaks.
   [[nodiscard]] double merit(const QuadraticModel& model) const;
 
-  /// Smallest and largest signed distance [mm].
-  struct Extremes {
-    double least = 0, most = 0;
-  };
-  [[nodiscard]] Extremes extremes() const;
+  /// Of the signed distances.
+  [[nodiscard]] BoundRows::Extremes extremes() const { return rows_.extremes(); }
   /// How far row i is from its bound, in its own weight; infinite where it does not count.
   [[nodiscard]] double slack(std::uint32_t i) const;
 
@@ -88,18 +81,9 @@ class BoundedFit {
   [[nodiscard]] ActiveSetResult solve_levels() const;
   [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
   [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
-  [[nodiscard]] double distance(std::uint32_t i) const;
-  [[nodiscard]] double broken_limit() const;
   void raise_penalties();
-  /// Of the active set: a row that bounds a distance.
-  [[nodiscard]] bool is_distance(const ActiveSet::Entry& entry) const {
-    return entry.index < static_cast<int>(count_);
-  }
-  [[nodiscard]] std::size_t stride() const { return std::size_t{capacity_} + kMostLimits; }
-  [[nodiscard]] double* column(int k) const { return memory_ + static_cast<std::size_t>(k) * stride(); }
 
-  double* memory_ = nullptr;
-  std::uint32_t capacity_ = 0, count_ = 0, limits_ = 0;
+  BoundRows rows_;
   FitMode mode_ = FitMode::minimax;
   MotionBasis basis_;             ///< the unknowns are y in x = directions y
   double reach_ = 0, trust_ = 0;  ///< trust: how far the expansions have held [mm]

@@ -11,19 +11,23 @@ namespace {
 
 double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-Status run(Localizer& fit, const std::vector<ProbePoint>& points, WayIn way) {
+/// Returns the time that refine() took.
+double run(Localizer& fit, const std::vector<ProbePoint>& points, WayIn way, Status& status) {
   Verdict verdict;
   for (const ProbePoint& point : points) {
     (void)(way == WayIn::batch ? fit.stage(point) : fit.push(point, verdict));
   }
+  const double began = cpu_s();
   fit.conclude();
-  return refine_fully(fit);
+  status = refine_fully(fit);
+  return cpu_s() - began;
 }
 
 Pose least_squares_pose(const CompiledDesign& design, LocalizerConfig config, const std::vector<ProbePoint>& points) {
   config.mode = FitMode::least_squares;
   OwnedLocalizer fit(design.image(), config);
-  (void)run(*fit, points, WayIn::batch);
+  Status status;
+  (void)run(*fit, points, WayIn::batch, status);
   return fit->fit().pose;
 }
 
@@ -71,8 +75,8 @@ DefectFit fit_defects(const CompiledDesign& design, const LocalizerConfig& confi
   DefectFit out;
   OwnedLocalizer fit(design.image(), config);
   const double began = cpu_s();
-  out.status = run(*fit, points, way);
-  out.cpu_s = cpu_s() - began;
+  out.refine_s = run(*fit, points, way, out.status);
+  out.push_s = cpu_s() - began - out.refine_s;
   out.report = fit->fit();
   const Pose before = least_squares_pose(design, config, points);
   const ModeValue objective(design, config, counted(*fit, points));

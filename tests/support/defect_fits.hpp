@@ -13,7 +13,7 @@ enum class WayIn : std::uint8_t { batch, stream };
 struct DefectFit {
   Status status = Status::ok;  ///< of refine()
   FitReport report;
-  double cpu_s = 0;
+  double push_s = 0, refine_s = 0;  ///< processor time of taking the points in, and of the fit then
   double least_squares_value = 0;  ///< of the mode's objective at the least-squares pose; infinite where that is infeasible
   double value = 0;                ///< by the definition, at the pose found
   [[nodiscard]] bool answered() const;

@@ -42,7 +42,7 @@ class OwnedParts {
       : points_(config.capacity),
         order_(config.capacity),
         ring_(config.capacity),
-        rows_(BoundedFit::doubles_for(config.capacity)),
+        rows_(BoundRows::doubles_for(config.capacity)),
         places_(KeptSheets::kPlacesPerPoint * config.capacity),
         parts_(design, config) {
     parts_.store.attach(points_.data(), order_.data(), config.capacity);
