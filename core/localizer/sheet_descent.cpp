@@ -1,8 +1,6 @@
 #include "core/localizer/sheet_descent.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/fit/facing_row.hpp"
 
@@ -44,11 +42,11 @@ void SheetDescent::note(std::uint32_t index, const StoredPoint& point, const Pos
   if (k == held_.count || m.foot.kind != FootKind::interior) return;
   const Vec3 approach = pose.rotation * point.approach;
   const FacingRow row = facing_row(m.projection, m.foot.normal, m.r, approach, problem_.frame);
-  const double slope = row.gradient.norm();
-  if (!(slope > 0.0)) return;
-  if (std::isnan(allowed_[k])) allowed_[k] = std::max(0.0, row.facing);
-  const double margin = allowed_[k] > 0.0 ? 0.0 : tuning::kFacesBy * problem_.frame.length;
-  program.set_limit(k, (row.facing - allowed_[k]) / slope + margin, row.gradient / slope);
+  Hold& hold = hold_[k];
+  if (!hold.known) hold = {true, std::max(0.0, row.facing), row.gradient.norm()};
+  if (!(hold.slope > 0.0)) return;
+  const double margin = hold.allowed > 0.0 ? 0.0 : tuning::kFacesBy * problem_.frame.length;
+  program.set_limit(k, (row.facing - hold.allowed) / hold.slope + margin, row.gradient / hold.slope);
 }
 
 SheetDescent::Outcome SheetDescent::weigh(bool proof, double merit, const Pose& pose, std::uint32_t count) {
@@ -74,7 +72,7 @@ bool SheetDescent::hold_others() {
   bool any = false;
   for (std::uint32_t k = 0; k < others_.count; ++k) {
     if (held_.holds(others_.index[k]) || !held_.add(others_.index[k])) continue;
-    allowed_[held_.count - 1] = std::numeric_limits<double>::quiet_NaN();  // known at the pose that is gone back to
+    hold_[held_.count - 1] = Hold();  // known at the pose that is gone back to
     any = true;
   }
   return any;
@@ -86,7 +84,7 @@ void SheetDescent::release_others() {
   for (std::uint32_t k = 0; k < held_.count; ++k) {
     if (others_.holds(held_.index[k])) continue;
     held_.index[kept] = held_.index[k];
-    allowed_[kept++] = allowed_[k];
+    hold_[kept++] = hold_[k];
   }
   held_.count = kept;
 }

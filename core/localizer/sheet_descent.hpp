@@ -58,11 +58,18 @@ class SheetDescent {
     bool add(std::uint32_t i);
   };
 
+  /// How a foot is held: n . a is no more than what it was at the proven pose, or 0, counted in the length that the pose
+  /// must have moved for it there.
+  struct Hold {
+    bool known = false;
+    double allowed = 0, slope = 0;  ///< [-, 1/mm]
+  };
+
   const FitProblem& problem_;
   KeptSheets sheets_;
   Points others_;  ///< whose foot in this sweep is on another sheet
   Points held_;    ///< whose foot is held to face its probe, or to be averted no farther
-  std::array<double, kMost> allowed_{};  ///< n . a of each at most; NaN until known
+  std::array<Hold, kMost> hold_{};
   bool any_other_ = false, fresh_ = true;
   std::uint32_t rounds_ = 0;
   Pose proven_pose_;

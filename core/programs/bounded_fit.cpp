@@ -138,6 +138,7 @@ ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
     if (!succeeded(result.status)) break;
     const Vec6 x = result.x.head<6>();
     result.objective = levels.dot(result.x) + 0.5 * x.dot(curvature_ * x);  // what the step promises
+    if (result.objective > value()) break;  // the constraints of before are not those that matter
     result.residuals = kkt_residuals(nullptr, levels, c, result.x, result.active);
     return result;
   }
@@ -215,6 +216,7 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
 void BoundedFit::raise_penalties() {
   for (int k = 0; k < active_.count; ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    if (mode_ != FitMode::constrained && rows_.is_distance(entry.index)) continue;  // a level gives way to those
     penalty_ = std::max(penalty_, 10.0 * entry.multiplier);
   }
 }
