@@ -88,7 +88,7 @@ ModeFit::Next ModeFit::finish_sweep(bool concluded, ModeOptimum& optimum) {
       return give_up(FitEnd::feet_changing);
   }
   const BoundedFit::Step step = program_.step(sums_.model());
-  if (!succeeded(step.status)) return give_up(FitEnd::program_failed);
+  if (!succeeded(step.status)) return let_go(FitEnd::program_failed);
   if (step.settled && sweep_.proves()) return at_optimum(concluded, optimum);
   if (!step.from_last) {
     sheets_.accept(store_.size());
@@ -98,13 +98,20 @@ ModeFit::Next ModeFit::finish_sweep(bool concluded, ModeOptimum& optimum) {
   estimate_.set_last_step(step.x.norm());
   sweep_.set_last_step(step.x);
   if (step.settled) sweep_.prove_next();
-  return sweep_.number() < tuning::kProgramSweeps ? Next::goes_on : give_up(FitEnd::sweeps_used_up);
+  return sweep_.number() < tuning::kProgramSweeps ? Next::goes_on : let_go(FitEnd::sweeps_used_up);
 }
 
 ModeFit::Next ModeFit::go_on_from_proven() {
   program_.compare_anew();
   estimate_.move_to(sheets_.proven_pose());
-  return sweep_.number() < tuning::kProgramSweeps ? Next::goes_on : give_up(FitEnd::sweeps_used_up);
+  return sweep_.number() < tuning::kProgramSweeps ? Next::goes_on : let_go(FitEnd::sweeps_used_up);
+}
+
+/// The program leads nowhere: once more, with nothing held.
+ModeFit::Next ModeFit::let_go(FitEnd why) {
+  if (sheets_.let_go(store_.size()) == SheetDescent::Outcome::stuck) return give_up(why);
+  sweep_.begin_again();
+  return go_on_from_proven();
 }
 
 /// What follows from an optimum: regions that follow their feet are assigned again; the second stage begins.

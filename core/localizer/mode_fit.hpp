@@ -53,6 +53,7 @@ class ModeFit {
   [[nodiscard]] Next begin_program(FitMode mode, bool there);
   [[nodiscard]] Next begin_program_at(FitMode mode, const Pose& pose);
   [[nodiscard]] Next go_on_from_proven();
+  [[nodiscard]] Next let_go(FitEnd why);
   [[nodiscard]] Next at_optimum(bool concluded, ModeOptimum& optimum);
   [[nodiscard]] Next begin_last_program();
   [[nodiscard]] Next begin_starts(double own_value, bool concluded);

@@ -20,6 +20,7 @@ void SheetDescent::begin(const PointStore& store, bool there) {
   for (std::uint32_t i = 0; i < store.size(); ++i) sheets_.keep(i, place_of(store[i]));
   if (!there) held_.count = 0;
   fresh_ = true;
+  free_ = false;
   rounds_ = 0;
 }
 
@@ -51,18 +52,29 @@ void SheetDescent::note(std::uint32_t index, const StoredPoint& point, const Pos
 
 SheetDescent::Outcome SheetDescent::weigh(bool proof, double merit, const Pose& pose, std::uint32_t count) {
   if (!proof && !fresh_) return Outcome::same;
+  if (fresh_) first_merit_ = merit;
   const bool counts = fresh_ || merit <= proven_merit_ * (1.0 + tuning::kMeritRounding);
   if (counts) {
     fresh_ = false;
     proven_pose_ = pose;
     proven_merit_ = merit;
     sheets_.prove(count);
-    if (!any_other_) return Outcome::same;
-    release_others();
-    return ++rounds_ > tuning::kSheetRounds ? Outcome::stuck : Outcome::adopted;
   }
-  if (!any_other_) return Outcome::same;
-  if (++rounds_ > tuning::kSheetRounds || !hold_others()) return Outcome::stuck;
+  if (!any_other_) return merit <= first_merit_ * (1.0 + tuning::kSameOptimum) ? Outcome::same : Outcome::stuck;
+  const bool last = ++rounds_ > tuning::kSheetRounds;
+  if (counts || free_) {
+    release_others();
+    return last ? Outcome::stuck : Outcome::adopted;
+  }
+  if (last || !hold_others()) return let_go(count);
+  sheets_.go_back(count);
+  return Outcome::back;
+}
+
+SheetDescent::Outcome SheetDescent::let_go(std::uint32_t count) {
+  if (free_) return Outcome::stuck;
+  free_ = true;
+  rounds_ = held_.count = 0;
   sheets_.go_back(count);
   return Outcome::back;
 }

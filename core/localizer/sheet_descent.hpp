@@ -10,7 +10,9 @@ namespace bladefit {
 /// finds others, the pose counts if the objective, with these, is below that of the last such pose; else the program
 /// goes back there, and the feet that would avert themselves from their probes on the way are held to face them: the
 /// objective jumps where they cease to, so that its least value may lie at that limit. The merit of the poses that
-/// count never rises, and what is held only grows, so that it ends.
+/// count never rises, and what is held only grows, so that it ends. Where that leads nowhere the other feet are taken
+/// from the last proven pose on whatever they cost, a few times: a pose that is the optimum of its own feet, and not
+/// worse than where the program began, is one of the mode's as well.
 class SheetDescent {
  public:
   explicit SheetDescent(const FitProblem& problem) : problem_(problem) {}
@@ -35,10 +37,12 @@ class SheetDescent {
     same,     ///< no foot is another one
     adopted,  ///< some are, and the pose counts
     back,     ///< it does not: go on from proven_pose(), whose sheets are kept again
-    stuck     ///< nor is there anything else to be held, or this has gone on too long
+    stuck     ///< this has gone on too long
   };
   /// After a sweep at `pose` of this merit. `proof`: every foot was searched.
   [[nodiscard]] Outcome weigh(bool proof, double merit, const Pose& pose, std::uint32_t count);
+  /// The program leads nowhere. back: go on from proven_pose(), with nothing held. Else stuck.
+  [[nodiscard]] Outcome let_go(std::uint32_t count);
   [[nodiscard]] const Pose& proven_pose() const { return proven_pose_; }
   /// The step of the program counts.
   void accept(std::uint32_t count) { sheets_.accept(count); }
@@ -70,10 +74,12 @@ class SheetDescent {
   Points others_;  ///< whose foot in this sweep is on another sheet
   Points held_;    ///< whose foot is held to face its probe, or to be averted no farther
   std::array<Hold, kMost> hold_{};
-  bool any_other_ = false, fresh_ = true;
+  bool any_other_ = false;
+  bool fresh_ = true;  ///< no pose is proven yet
+  bool free_ = false;  ///< nothing is held any more
   std::uint32_t rounds_ = 0;
   Pose proven_pose_;
-  double proven_merit_ = 0;
+  double first_merit_ = 0, proven_merit_ = 0;
 };
 
 }  // namespace bladefit

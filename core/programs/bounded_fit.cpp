@@ -158,10 +158,6 @@ ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
   return minimize_quadratic(hessian, gradient, constraints(), active_);
 }
 
-ActiveSetResult BoundedFit::solve(const QuadraticModel& model) const {
-  return mode_ == FitMode::constrained ? solve_bounds(model) : solve_levels();
-}
-
 /// True where the last step raised the merit: a quarter of it, from where it started.
 bool BoundedFit::retreat(double merit, Step& step) {
   const bool checked = last_.taken && last_.x.norm() > kCheckedAbove * reach_;
@@ -193,11 +189,7 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
     return step;
   }
   adapt_trust(present);
-  ActiveSetResult result = solve(model);
-  if (!succeeded(result.status) && rows_.limits() > 0 && trust_ < reach_) {
-    trust_ = reach_;  // a limit that was broken by more than a step may be long
-    result = solve(model);
-  }
+  const ActiveSetResult result = mode_ == FitMode::constrained ? solve_bounds(model) : solve_levels();
   curvature_.setZero();
   step.status = result.status;
   if (!succeeded(result.status)) return step;

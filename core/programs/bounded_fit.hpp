@@ -77,7 +77,6 @@ class BoundedFit {
   void adapt_trust(double merit);
   [[nodiscard]] Constraints constraints() const;
   [[nodiscard]] Vec8 set_levels(Constraints& constraints) const;
-  [[nodiscard]] ActiveSetResult solve(const QuadraticModel& model) const;
   [[nodiscard]] ActiveSetResult solve_levels() const;
   [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
   [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
