@@ -109,11 +109,14 @@ void stage_made(LocalizerParts& p, const StoredPoint& made, Search search) {
 }  // namespace
 
 std::size_t Localizer::memory_required(const LocalizerConfig& config) {
-  const std::uint64_t rows = config.mode == FitMode::least_squares ? 0 : BoundedFit::kDoublesPerPoint;
+  const bool bounded = config.mode != FitMode::least_squares;
+  const std::uint64_t rows = bounded ? BoundRows::doubles_for(config.capacity) : 0;
+  const std::uint64_t places = bounded ? KeptSheets::kPlacesPerPoint : 0;
   const std::uint64_t points = config.capacity;
   const std::uint64_t size = rounded_up(sizeof(Localizer)) + rounded_up(sizeof(LocalizerParts)) +
                              rounded_up(sizeof(StoredPoint) * points) + 2 * rounded_up(sizeof(std::uint32_t) * points) +
-                             rounded_up(sizeof(double) * rows * points);
+                             rounded_up(sizeof(double) * rows) +
+                             rounded_up(sizeof(SurfacePlace) * places * points);
   return static_cast<std::size_t>(std::min<std::uint64_t>(size, kMoreThanThereIs));
 }
 
@@ -132,7 +135,9 @@ Status Localizer::create(std::span<std::byte> memory, const DesignImage& design,
   parts->store.attach(points, order, config.capacity);
   parts->verdicts.attach(placed<std::uint32_t>(place, config.capacity), config.capacity);
   if (parts->plan.bounded()) {
-    parts->refinement.attach(placed<double>(place, BoundedFit::kDoublesPerPoint * config.capacity), config.capacity);
+    auto* rows = placed<double>(place, BoundRows::doubles_for(config.capacity));
+    auto* places = placed<SurfacePlace>(place, KeptSheets::kPlacesPerPoint * config.capacity);
+    parts->refinement.attach(rows, places, config.capacity);
   }
   localizer = new (memory.data()) Localizer(*parts);
   localizer->reset();

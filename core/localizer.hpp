@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/loss.hpp"
@@ -51,6 +53,22 @@ struct LocalizerConfig {
 
 enum class FitStatus : std::uint8_t { underdetermined = 0, tracking = 1, converged = 2, infeasible = 3 };
 
+/// Why refine() has ended without convergence.
+enum class FitEnd : std::uint8_t {
+  none = 0,              ///< it has converged, or is not done
+  sweeps_used_up = 1,    ///< the pose has not come to rest
+  feet_changing = 2,     ///< feet change from side to side of the blade with every pose
+  regions_restless = 3,  ///< feet move between regions, so that tolerances change with every pose
+  program_failed = 4,    ///< the mode's program has no solution to working precision
+  feet_unproven = 5      ///< the search of a foot met its cap
+};
+
+/// The words of the ends in results, in the order of their values.
+inline constexpr std::array<std::string_view, 6> kFitEndWords = {
+    "none", "sweeps_used_up", "feet_changing", "regions_restless", "program_failed", "feet_unproven"};
+
+constexpr std::string_view word_of(FitEnd end) { return kFitEndWords[static_cast<std::size_t>(end)]; }
+
 /// Figures of one region, over the points that count in the fit.
 struct RegionReport {
   std::uint32_t count = 0;       ///< points of the region that count in the fit
@@ -90,6 +108,10 @@ struct FitReport {
   double stationarity = 0;  ///< of its Karush-Kuhn-Tucker conditions, relative: the self check of the mode
   std::uint32_t further_starts = 0;  ///< from how many other poses the optimum was sought again
   std::uint32_t same_optimum = 0;    ///< how many of these led to the same one; the others to worse ones
+  FitEnd ended = FitEnd::none;
+  /// Points whose foot would lie elsewhere beyond the pose, farther away, since it would no longer face the probe: the
+  /// mode's optimum rests on so many limits of that kind beside its certificate.
+  std::uint32_t held_feet = 0;
   /// Feet whose search met its cap in the last sweep of refine(): then it is not converged.
   std::uint32_t unproven = 0;
   std::uint32_t searches = 0;  ///< global searches for the feet of stored points so far, those for a window left out

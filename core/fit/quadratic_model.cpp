@@ -119,13 +119,20 @@ DistanceRow distance_row(const Projection& projection, const Foot& foot, const V
   const Lever lever(r, x, frame);
   DistanceRow row;
   row.distance = foot.distance;
-  row.gradient = lever(foot.normal);
-  if (foot.kind == FootKind::interior) {
-    add_surface_bend(projection, foot.normal, lever, row.bend);
+  Vec3 n = foot.normal;
+  const double length = projection.offset.norm();
+  const bool of_edge = (projection.fixed_u || projection.fixed_v) && length > 0.0;
+  if (of_edge) {
+    // At a seam the distance is that to its curve, with a sign.
+    const double side = foot.kind == FootKind::interior && n.dot(projection.offset) < 0.0 ? -1.0 : 1.0;
+    n = projection.offset * (side / length);
+    add_curve_bend(projection, n, lever, row.bend);
+    row.bend *= side;
   } else {
-    add_curve_bend(projection, foot.normal, lever, row.bend);
+    add_surface_bend(projection, n, lever, row.bend);
   }
-  add_rotation_bend(foot.normal, lever.arm(), frame.length, row.bend);
+  row.gradient = lever(n);
+  add_rotation_bend(n, lever.arm(), frame.length, row.bend);
   row.bend.triangularView<Eigen::StrictlyLower>() = row.bend.transpose();
   return row;
 }

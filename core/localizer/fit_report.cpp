@@ -56,6 +56,8 @@ FitReport report_of(const LocalizerParts& p) {
     report.further_starts = p.problem.config.further_starts;
     report.same_optimum = p.refinement.further_starts().same();
   }
+  report.ended = p.refinement.ended();
+  if (p.plan.bounded() && converged) report.held_feet = p.optimum.held_feet;
   report.unproven = p.refinement.unproven();
   report.searches = p.store.searches();
   report.rest = region_report(p.sums.region(Region::rest), p.verdicts.out(Region::rest));

@@ -26,22 +26,17 @@ bool FootFinder::outside_window(const StoredPoint& point) const {
   return outside(foot.u) || outside(foot.v);
 }
 
-Measurement FootFinder::find(const StoredPoint& point, const Pose& pose, Search search) const {
+Measurement FootFinder::find_from(const FootStart& start, const StoredPoint& point, const Pose& pose) const {
   Measurement m;
   m.r = apply(pose, point.position);
-  m.projection = project_local(problem_.surface, m.r, {point.span, point.foot.u, point.foot.v});
-  examine(point, pose, search, m);
+  m.projection = project_local(problem_.surface, m.r, start.place);
+  examine(point, pose, start.search, m);
   m.foot = foot_of(problem_.surface, m.projection, problem_.config.probe_radius_mm);
   return m;
 }
 
-/// Tracks points at the pose. Cost: some 60 ns a point; nothing where the processor has no wide registers.
-void FootFinder::track(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
-                       LaneBlock& block) const {
-  for (const std::uint32_t index : indices) {
-    const StoredPoint& point = store[index];
-    block.feet.enter(problem_.surface, apply(pose, point.position), {point.span, point.foot.u, point.foot.v});
-  }
+/// Tracks the points that were entered. Cost: some 60 ns a point; nothing where the processor has no wide registers.
+void FootFinder::track(const Vec6& x, LaneBlock& block) const {
   block.feet.find(problem_.surface);
   const LaneWalk* walk = block.feet.walk();
   if (walk == nullptr) return;
@@ -54,14 +49,14 @@ void FootFinder::track(const PointStore& store, std::span<const std::uint32_t> i
   take_rows(*walk, lane_frame, block.rows);
 }
 
-/// What find() gives, to the last bit, from the lane in which the point was tracked.
-Measurement FootFinder::find_tracked(const StoredPoint& point, const Pose& pose, Search search, const LaneBlock& block,
-                                     std::uint32_t lane) const {
-  if (!block.feet.found(lane) || !block.rows.regular[lane]) return find(point, pose, search);
+/// What find_from() gives, to the last bit, from the lane in which the point was tracked.
+Measurement FootFinder::find_tracked(const FootStart& start, const StoredPoint& point, const Pose& pose,
+                                     const LaneBlock& block, std::uint32_t lane) const {
+  if (!block.feet.found(lane) || !block.rows.regular[lane]) return find_from(start, point, pose);
   Measurement m;
   m.r = block.feet.point(lane);
   m.projection = block.feet.projection(lane);
-  examine(point, pose, search, m);
+  examine(point, pose, start.search, m);
   const SurfacePlace &own = block.feet.place(lane), &found = m.projection.place;
   if (found.span != own.span || found.u != own.u || found.v != own.v) {
     m.foot = foot_of(problem_.surface, m.projection, problem_.config.probe_radius_mm);
@@ -94,6 +89,7 @@ DistanceRow FootFinder::row(const Measurement& m, const Vec6& x) const {
 /// Whether the projection that a point was tracked to is its nearest: where that is in doubt, the design is searched.
 void FootFinder::examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const {
   const Surface& surface = problem_.surface;
+  if (search == Search::keep && m.projection.converged && !falls_over_seam(surface, m.projection)) return;
   ProjectionQuery query{m.r, pose.rotation * point.approach};
   const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
                         !faces_probe(surface, m.projection, query.approach);

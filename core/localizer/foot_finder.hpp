@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <span>
 
 #include "core/fit/quadratic_model.hpp"
@@ -12,8 +13,20 @@ enum class Search : std::uint8_t {
   if_doubtful,  ///< where tracking ends on an edge, on no minimum or averted from the probe
   past_margin,  ///< there too, and where the point has moved so far that its runner-up may be nearer; finds a new
                 ///< margin
+  keep,         ///< only where tracking ends on no minimum or at a seam: the foot stays on its sheet
   always
 };
+
+/// Where the foot of a point is sought from, and how.
+struct FootStart {
+  SurfacePlace place;
+  Search search;
+};
+
+/// That of its last foot.
+[[nodiscard]] inline SurfacePlace place_of(const StoredPoint& point) {
+  return {point.span, point.foot.u, point.foot.v};
+}
 
 /// Feet and rows of points at a pose. Changes nothing.
 class FootFinder {
@@ -24,21 +37,23 @@ class FootFinder {
   /// searched.
   [[nodiscard]] StoredPoint new_point(const ProbePoint& point, const SurfacePlace& start) const;
   /// Cost: some 150 ns where the foot is tracked, some microseconds where it is searched.
-  [[nodiscard]] Measurement find(const StoredPoint& point, const Pose& pose, Search search) const;
+  [[nodiscard]] Measurement find(const StoredPoint& point, const Pose& pose, Search search) const {
+    return find_from({place_of(point), search}, point, pose);
+  }
+  [[nodiscard]] Measurement find_from(const FootStart& start, const StoredPoint& point, const Pose& pose) const;
   /// Measures stored points, several at once where the processor can, to the same bits as find(). Rows are taken `x`
-  /// away from the reference of the sums they are for. `search_of(point)` says when to search, `use(index,
+  /// away from the reference of the sums they are for. `start_of(index)` says where from and how, `use(index,
   /// measurement)` takes each in the order of `indices`; the measurement is gone after that call.
-  template <class SearchOf, class Use>
+  template <class StartOf, class Use>
   void find_each(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
-                 SearchOf search_of, Use use) const;
+                 StartOf start_of, Use use) const;
   /// Expansion of the measured distance, `x` away from the reference of the sums it is for.
   [[nodiscard]] DistanceRow row(const Measurement& m, const Vec6& x) const;
 
  private:
   [[nodiscard]] bool outside_window(const StoredPoint& point) const;
-  void track(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
-             LaneBlock& block) const;
-  [[nodiscard]] Measurement find_tracked(const StoredPoint& point, const Pose& pose, Search search,
+  void track(const Vec6& x, LaneBlock& block) const;
+  [[nodiscard]] Measurement find_tracked(const FootStart& start, const StoredPoint& point, const Pose& pose,
                                          const LaneBlock& block, std::uint32_t lane) const;
   void examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const;
   [[nodiscard]] bool weigh_runner_up(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const;
@@ -47,16 +62,20 @@ class FootFinder {
   const FitProblem& problem_;
 };
 
-template <class SearchOf, class Use>
+template <class StartOf, class Use>
 void FootFinder::find_each(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose,
-                           const Vec6& x, SearchOf search_of, Use use) const {
+                           const Vec6& x, StartOf start_of, Use use) const {
   for (std::size_t first = 0; first < indices.size(); first += kLanes) {
     const auto some = indices.subspan(first, std::min<std::size_t>(kLanes, indices.size() - first));
     LaneBlock block;
-    track(store, some, pose, x, block);
+    std::array<FootStart, kLanes> starts;
     for (std::uint32_t lane = 0; lane < some.size(); ++lane) {
-      const StoredPoint& point = store[some[lane]];
-      use(some[lane], find_tracked(point, pose, search_of(point), block, lane));
+      starts[lane] = start_of(some[lane]);
+      block.feet.enter(problem_.surface, apply(pose, store[some[lane]].position), starts[lane].place);
+    }
+    track(x, block);
+    for (std::uint32_t lane = 0; lane < some.size(); ++lane) {
+      use(some[lane], find_tracked(starts[lane], store[some[lane]], pose, block, lane));
     }
   }
 }

@@ -54,31 +54,69 @@ void FurtherStarts::begin_start(ModeProgram& program) {
     const Vec6 step = steps_.col((start_.number - 1) / 2);
     start_.pose = problem_.moved_and_held(centre_, start_.number % 2 == 1 ? step : Vec6(-step));
   }
-  start_.sweeps = start_.cursor = 0;
+  start_.sweeps = start_.cursor = start_.others = start_.proofs = 0;
+  start_.proves = false;
   program.begin(plan_.row().sought, points_);
   program.set_pose(start_.pose);
 }
 
-FurtherStarts::Outcome FurtherStarts::advance(PointStore& store, const QuadraticModel& model, ModeProgram& program) {
-  const StoredPoint& point = store[start_.cursor];
-  const Measurement m = finder_.find(point, start_.pose, Search::always);
-  if (selection_.left_out(point, m.foot)) {
-    program.skip_row(start_.cursor);
-  } else {
-    program.set_row(start_.cursor, finder_.row(m, Vec6::Zero()));
-  }
-  store.count_search();
-  start_.cursor += stride_;
+FurtherStarts::Outcome FurtherStarts::advance(PointStore& store, const QuadraticModel& model, ModeProgram& program,
+                                              KeptSheets& sheets) {
+  sweep_on(store, program, sheets);
   if (start_.cursor < points_) return Outcome::running;
-  finish_sweep(model, program);
+  finish_sweep(model, program, sheets);
   if (phase_ == Phase::running) return Outcome::running;
   return best_.value < own_.found * (1.0 - tuning::kSameOptimum) ? Outcome::better : Outcome::not_better;
 }
 
-void FurtherStarts::finish_sweep(const QuadraticModel& model, ModeProgram& program) {
+void FurtherStarts::sweep_on(PointStore& store, ModeProgram& program, KeptSheets& sheets) {
+  std::array<std::uint32_t, kLanes> indices{};
+  std::uint32_t count = 0;
+  for (; count < kLanes && start_.cursor < points_; start_.cursor += stride_) indices[count++] = start_.cursor;
+  const bool first = start_.sweeps == 0;
+  finder_.find_each(
+      store, {indices.data(), count}, start_.pose, Vec6::Zero(),
+      [&](std::uint32_t i) {
+        return FootStart{first ? place_of(store[i]) : sheets.kept(i), start_.proves ? Search::always : Search::keep};
+      },
+      [&](std::uint32_t i, const Measurement& tracked) {
+        if (!first || !matters(program, i, tracked)) return take_in(store, i, tracked, program, sheets);
+        take_in(store, i, finder_.find_from({place_of(store[i]), Search::always}, store[i], start_.pose), program, sheets);
+      });
+}
+
+/// The first feet of a start are those of the optimum found before, tracked. Of what is far out the nearest are sought.
+bool FurtherStarts::matters(const ModeProgram& program, std::uint32_t i, const Measurement& m) const {
+  return own_.value == kInfinity ||
+         std::abs(m.foot.distance) > tuning::kStartSearch * own_.value * program.unit_of(i);
+}
+
+void FurtherStarts::take_in(PointStore& store, std::uint32_t i, const Measurement& m, ModeProgram& program,
+                            KeptSheets& sheets) {
+  if (m.searched) store.count_search();
+  if (m.changed) ++start_.others;
+  sheets.try_place(i, m.projection.place);
+  if (selection_.left_out(store[i], m.foot)) {
+    program.skip_row(i);
+  } else {
+    program.set_row(i, finder_.row(m, Vec6::Zero()));
+  }
+}
+
+/// A start that has come to rest with a better value is proven: where feet are found on other sheets it goes on with
+/// those, once or twice.
+void FurtherStarts::finish_sweep(const QuadraticModel& model, ModeProgram& program, KeptSheets& sheets) {
+  if (start_.proves && start_.others > 0) program.compare_anew();
+  const bool proven = start_.proves && (start_.others == 0 || start_.proofs == tuning::kStartProofs);
   const BoundedFit::Step step = program.step(model);
+  if (!step.from_last) sheets.accept(points_);
   const bool failed = !succeeded(step.status) || ++start_.sweeps == tuning::kStartSweeps;
-  if (failed || step.settled) return end_start(failed ? kInfinity : program.value(), program);
+  if (failed) return end_start(kInfinity, program);
+  const bool worse = program.value() >= best_.value * (1.0 - tuning::kSameOptimum);
+  if ((step.settled && worse) || proven) return end_start(program.value(), program);
+  start_.proves = step.settled;
+  if (step.settled) ++start_.proofs;
+  start_.others = 0;
   if (!step.from_last) start_.last_pose = start_.pose;
   start_.pose = problem_.moved_and_held(start_.last_pose, step.x);
   start_.cursor = 0;

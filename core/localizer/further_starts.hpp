@@ -1,5 +1,6 @@
 #pragma once
 #include "core/localizer/foot_finder.hpp"
+#include "core/localizer/kept_sheets.hpp"
 #include "core/localizer/mode_program.hpp"
 
 namespace bladefit {
@@ -25,13 +26,17 @@ class FurtherStarts {
   void begin(double own_value, const Pose& own_pose, std::uint32_t points, ModeProgram& program);
 
   enum class Outcome : std::uint8_t { running, better, not_better };
-  /// Measures the next point of a start's sweep; every foot is searched globally. Cost: some microseconds, and at the
-  /// end of a sweep a step of the program.
-  [[nodiscard]] Outcome advance(PointStore& store, const QuadraticModel& model, ModeProgram& program);
+  /// Measures the next points of a start's sweep, as many as there are lanes where there are so many. Feet are searched
+  /// in the first sweep of a start and keep their sheets from there. Cost: some microseconds, and at the end of a sweep
+  /// a step of the program.
+  [[nodiscard]] Outcome advance(PointStore& store, const QuadraticModel& model, ModeProgram& program,
+                                KeptSheets& sheets);
 
   /// All starts have been made.
   [[nodiscard]] bool done() const { return phase_ == Phase::done || phase_ == Phase::went_back; }
   [[nodiscard]] bool found_before() const;
+  /// The least-squares optimum.
+  [[nodiscard]] const Pose& centre() const { return centre_; }
   [[nodiscard]] double own_value() const { return own_.value; }
   [[nodiscard]] const Pose& own_pose() const { return own_.pose; }
   [[nodiscard]] const Pose& best_pose() const { return best_.pose; }
@@ -43,7 +48,10 @@ class FurtherStarts {
 
  private:
   void begin_start(ModeProgram& program);
-  void finish_sweep(const QuadraticModel& model, ModeProgram& program);
+  void sweep_on(PointStore& store, ModeProgram& program, KeptSheets& sheets);
+  [[nodiscard]] bool matters(const ModeProgram& program, std::uint32_t i, const Measurement& m) const;
+  void take_in(PointStore& store, std::uint32_t i, const Measurement& m, ModeProgram& program, KeptSheets& sheets);
+  void finish_sweep(const QuadraticModel& model, ModeProgram& program, KeptSheets& sheets);
   void end_start(double value, ModeProgram& program);
 
   /// The optimum that the mode has found. Its value over all points, infinite where there is none, and over those that
@@ -60,6 +68,8 @@ class FurtherStarts {
   /// Of the start under way. Number 0 starts from the optimum that the mode has found, for comparison.
   struct Start {
     std::uint32_t number = 0, sweeps = 0, cursor = 0;
+    std::uint32_t others = 0, proofs = 0;  ///< feet that were found on other sheets, and sweeps that looked for them
+    bool proves = false;                   ///< feet of this sweep are searched
     Pose pose, last_pose;
   };
 

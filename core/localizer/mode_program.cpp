@@ -1,6 +1,7 @@
 #include "core/localizer/mode_program.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bladefit {
 
@@ -35,9 +36,29 @@ double ModeProgram::assign_regions(PointStore& store, VerdictBook& verdicts) {
   return change;
 }
 
+double ModeProgram::unit_of(std::uint32_t index) const {
+  if (fit_.mode() == FitMode::range) return 0.5;
+  return fit_.mode() == FitMode::minimax ? 1.0 : fit_.weight(index);
+}
+
+double ModeProgram::range() const {
+  const BoundRows::Extremes found = fit_.extremes();
+  return found.most - found.least;
+}
+
+bool ModeProgram::bounds_hold(const PointStore& store, const PointSelection& selection) const {
+  for (std::uint32_t i = 0; i < store.size(); ++i) {
+    const double bound = fit_.weight(i);
+    if (bound == 0.0 || selection.left_out(store[i], store[i].foot)) continue;
+    if (std::abs(store[i].foot.distance) > bound * (1.0 + tuning::kFeasible)) return false;
+  }
+  return true;
+}
+
 ModeProgram::Regions ModeProgram::follow_feet(PointStore& store, VerdictBook& verdicts) {
   if (problem_.config.regions == RegionPolicy::fixed) return Regions::at_rest;
-  if (assign_regions(store, verdicts) <= tuning::kWeightsAtRest) return Regions::at_rest;
+  const bool weighted = fit_.mode() == FitMode::min_tolerance || fit_.mode() == FitMode::constrained;
+  if (assign_regions(store, verdicts) <= tuning::kWeightsAtRest || !weighted) return Regions::at_rest;
   return ++region_rounds_ >= tuning::kRegionRounds ? Regions::restless : Regions::changed;
 }
 

@@ -10,7 +10,7 @@ class ModeProgram {
  public:
   ModeProgram(const FitProblem& problem, const ModePlan& plan) : problem_(problem), plan_(plan) {}
 
-  /// `rows`: BoundedFit::kDoublesPerPoint a point of the capacity; they outlive the program.
+  /// `rows`: BoundRows::doubles_for(capacity); they outlive the program.
   void attach(double* rows, std::uint32_t capacity) { fit_.attach(rows, capacity); }
 
   /// A refinement begins.
@@ -24,6 +24,18 @@ class ModeProgram {
   /// The row of a point that counts; one without a bound is skipped.
   void set_row(std::uint32_t index, const DistanceRow& row);
   void skip_row(std::uint32_t index) { fit_.skip_row(index); }
+  /// As those of BoundedFit.
+  void set_limits(std::uint32_t count) { fit_.set_limits(count); }
+  void set_limit(std::uint32_t k, double value, const Vec6& gradient) { fit_.set_limit(k, value, gradient); }
+  void free_limit(std::uint32_t k) { fit_.free_limit(k); }
+  [[nodiscard]] std::uint32_t held_feet() const { return fit_.active_limits(); }
+  /// What the distance of a point is compared with, at a value of 1.
+  [[nodiscard]] double unit_of(std::uint32_t index) const;
+  /// Range of the distances at the present rows [mm].
+  [[nodiscard]] double range() const;
+  [[nodiscard]] double merit(const QuadraticModel& model) const { return fit_.merit(model); }
+  /// Points have other feet than before: the next step is not compared with the last one.
+  void compare_anew() { fit_.compare_anew(); }
   /// After all rows were set. `model`: sum of 1/2 d^2 about that pose. Cost: some ten passes over the rows.
   [[nodiscard]] BoundedFit::Step step(const QuadraticModel& model) { return fit_.step(model); }
 
@@ -36,6 +48,8 @@ class ModeProgram {
 
   /// Weights and regions of all points from their present feet. Returns the largest relative change of a weight.
   double assign_regions(PointStore& store, VerdictBook& verdicts);
+  /// Whether every point that counts is within the weight of its region.
+  [[nodiscard]] bool bounds_hold(const PointStore& store, const PointSelection& selection) const;
   enum class Regions : std::uint8_t { at_rest, changed, restless };
   /// The same where regions follow their feet: at an optimum. Restless: they have changed too often.
   [[nodiscard]] Regions follow_feet(PointStore& store, VerdictBook& verdicts);

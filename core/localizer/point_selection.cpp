@@ -1,5 +1,7 @@
 #include "core/localizer/point_selection.hpp"
 
+#include <limits>
+
 namespace bladefit {
 
 void PointSelection::by_exits(PointStore& store) {
@@ -31,6 +33,16 @@ bool PointSelection::left_out(const StoredPoint& point, const Foot& foot) const 
 
 bool PointSelection::out_by_foot(const StoredPoint& point, const Foot& foot) const {
   return point.outside_window || (foot.kind != FootKind::interior && problem_.config.edges == EdgePolicy::skip);
+}
+
+PointSelection::Span PointSelection::distances(const PointStore& store, std::uint32_t stride) const {
+  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (std::uint32_t i = 0; i < store.size(); i += stride) {
+    if (left_out(store[i], store[i].foot)) continue;
+    span.least = std::min(span.least, store[i].foot.distance);
+    span.most = std::max(span.most, store[i].foot.distance);
+  }
+  return span;
 }
 
 Region PointSelection::region(const StoredPoint& point, const Foot& foot) const {

@@ -27,6 +27,12 @@ class PointSelection {
 
   /// Whether the point, with this foot, does not count.
   [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const;
+  /// Smallest and largest of the signed distances [mm].
+  struct Span {
+    double least = 0, most = 0;
+  };
+  /// Of every `stride`-th point, those that count, with their present feet; least > most where none does.
+  [[nodiscard]] Span distances(const PointStore& store, std::uint32_t stride) const;
   /// Region of the point with this foot.
   [[nodiscard]] Region region(const StoredPoint& point, const Foot& foot) const;
   /// Counts an exit where the point leaves with its next foot. Called before that is recorded.

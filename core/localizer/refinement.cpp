@@ -1,7 +1,6 @@
 #include "core/localizer/refinement.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace bladefit {
 
@@ -19,28 +18,28 @@ Refinement::Refinement(const FitProblem& problem, const ModePlan& plan, const Fo
       sums_(sums),
       estimate_(estimate),
       loss_(loss),
-      verdicts_(verdicts),
       sweep_(problem),
-      program_(problem, plan),
-      starts_(problem, plan, finder, selection) {}
+      mode_(problem, plan, finder, store, selection, sums, estimate, verdicts, sweep_) {}
 
 void Refinement::clear() {
   phase_ = Phase::idle;
-  starts_.restart();
+  mode_.restart();
   unproven_ = 0;
+  ended_ = FitEnd::none;
 }
 
 void Refinement::interrupt() {
+  ended_ = FitEnd::none;
   enter(Event::interrupted);
-  starts_.interrupt();
+  mode_.interrupt();
 }
 
 void Refinement::begin(bool concluded, ModeOptimum& optimum) {
   enter(Event::began);
   selection_.by_exits(store_);
   loss_.restart();
-  program_.restart();
-  starts_.restart();
+  mode_.restart();
+  ended_ = FitEnd::none;
   optimum = ModeOptimum();  // an earlier optimum is not reported beside a failed search
   estimate_.redetermine();
   sums_.settle_all(store_, estimate_);
@@ -60,8 +59,8 @@ Status Refinement::advance(std::uint32_t max_points, bool concluded, ModeOptimum
         if (sums_.cursor() == store_.size()) status = finish_sweep(call);
         break;
       case Phase::further_starts:
-        ++visited;
-        status = start_on(optimum);
+        visited += kLanes;
+        status = start_on(call);
         break;
       case Phase::done:
         return Status::ok;
@@ -69,6 +68,7 @@ Status Refinement::advance(std::uint32_t max_points, bool concluded, ModeOptimum
         return Status::underdetermined;
     }
   }
+  if (status == Status::ok) ended_ = FitEnd::none;
   if (status != Status::more_work) enter(status == Status::ok ? Event::converged : Event::ended_unconverged);
   return status;
 }
@@ -76,7 +76,7 @@ Status Refinement::advance(std::uint32_t max_points, bool concluded, ModeOptimum
 void Refinement::begin_sweep() {
   sums_.begin_sweep(estimate_.pose());
   sweep_.begin(estimate_.pose());
-  if (phase_ == Phase::mode) program_.set_pose(estimate_.pose());
+  if (phase_ == Phase::mode) mode_.begin_sweep();
 }
 
 /// Measures the next points of the sweep and returns how many: as many as there are lanes, where there are so many.
@@ -86,7 +86,10 @@ std::uint32_t Refinement::sweep_on(std::uint32_t max_points) {
   for (std::uint32_t k = 0; k < count; ++k) indices[k] = sums_.cursor() + k;
   finder_.find_each(
       store_, {indices.data(), count}, estimate_.pose(), Vec6::Zero(),
-      [this](const StoredPoint& point) { return sweep_.search_of(point); },
+      [this](std::uint32_t index) {
+        return phase_ == Phase::mode ? mode_.start_of(index)
+                                     : FootStart{place_of(store_[index]), sweep_.search_of(store_[index])};
+      },
       [this](std::uint32_t index, const Measurement& m) { take_in(index, m); });
   return count;
 }
@@ -97,30 +100,68 @@ void Refinement::take_in(std::uint32_t index, const Measurement& m) {
   StoredPoint& point = store_[index];
   selection_.note_exit(point, m.foot);
   store_.record(point, m, estimate_.revision());
-  const bool has_program = phase_ == Phase::mode;
-  if (selection_.left_out(point, m.foot)) {
-    if (has_program) program_.skip_row(index);
+  const bool of_mode = phase_ == Phase::mode, counts = !selection_.left_out(point, m.foot);
+  if (of_mode) mode_.note(index, m, counts);
+  if (!counts) {
     sums_.pass_over();
     return;
   }
   const DistanceRow row = finder_.row(m, Vec6::Zero());
   sums_.sweep_over(point, m, row);
-  if (has_program) program_.set_row(index, row);
+  if (of_mode) mode_.set_row(index, row);
 }
 
 /// Moves the pose and decides what comes next.
 Status Refinement::finish_sweep(const Call& call) {
   sums_.commit();
   estimate_.redetermine();
-  Status status = phase_ == Phase::mode ? program_step(call) : least_squares_step(call);
-  if (status == Status::more_work && sweep_.number() >= tuning::kRefineSweeps) status = Status::iteration_cap;
-  if (status == Status::iteration_cap && go_elsewhere(call.concluded)) status = Status::more_work;
+  Status status = Status::more_work;
+  if (phase_ == Phase::mode) {
+    ModeFit::Next next = mode_.finish_sweep(call.concluded, call.optimum);
+    if (next == ModeFit::Next::given_up) next = mode_.go_elsewhere(call.concluded);
+    status = follow(next);
+  } else {
+    status = least_squares_step(call);
+  }
   unproven_ = sweep_.unproven();
-  if (status == Status::ok && unproven_ > 0) status = Status::iteration_cap;
+  if (status == Status::ok && unproven_ > 0) status = give_up(FitEnd::feet_unproven);
   call.optimum.infeasible = call.optimum.infeasible && status == Status::ok;
   sweep_.end();
   begin_sweep();
   return status;
+}
+
+/// What the mode's fit goes on with.
+Status Refinement::follow(ModeFit::Next next) {
+  switch (next) {
+    case ModeFit::Next::goes_on:
+      break;
+    case ModeFit::Next::begins:
+      enter(Event::program_began);
+      break;
+    case ModeFit::Next::seeks:
+      enter(Event::starts_began);
+      break;
+    case ModeFit::Next::optimum:
+      return Status::ok;
+    case ModeFit::Next::given_up:
+      return give_up(mode_.why());
+  }
+  return Status::more_work;
+}
+
+Status Refinement::start_on(const Call& call) {
+  const Status status = follow(mode_.start_on(unproven_ == 0, call.optimum));
+  if (phase_ == Phase::mode) {  // from another pose
+    sweep_.end();
+    begin_sweep();
+  }
+  return status;
+}
+
+Status Refinement::give_up(FitEnd why) {
+  ended_ = why;
+  return Status::iteration_cap;
 }
 
 /// Returns the length of the step [mm at the half diagonal].
@@ -134,21 +175,21 @@ double Refinement::solve(bool concluded) {
 
 /// ok or underdetermined: this pose is the optimum.
 Status Refinement::least_squares_step(const Call& call) {
-  if (retreat()) return Status::more_work;
+  const bool last = sweep_.number() >= tuning::kRefineSweeps;
+  if (retreat()) return last ? give_up(FitEnd::sweeps_used_up) : Status::more_work;
   descent_ = {sums_.model().half_square, sums_.model().count};
   sweep_.set_last_pose(estimate_.pose());
   const double step = solve(call.concluded);
   sweep_.set_last_step(motion_between(sweep_.last_pose(), estimate_.pose(), problem_.frame));
-  if (!sweep_.proves() || step > tuning::kConvergedBelow * problem_.frame.length) return Status::more_work;
-  if (selection_.readmit(store_)) {
+  if (!sweep_.last_step_counts()) sweep_.prove_next();
+  if (!sweep_.proves() || step > tuning::kConvergedBelow * problem_.frame.length)
+    return last ? give_up(FitEnd::sweeps_used_up) : Status::more_work;
+  if (!last && selection_.readmit(store_)) {
     sweep_.begin_again();  // the sums are without them
     return Status::more_work;
   }
   if (!estimate_.determined()) return Status::underdetermined;
-  if (plan_.bounded()) {
-    begin_program(plan_.row().first);
-    return Status::more_work;
-  }
+  if (plan_.bounded()) return follow(mode_.begin());
   if (!loss_.adapt(store_, selection_)) return Status::ok;
   sweep_.begin_again();  // the sums are of the old loss
   return Status::more_work;
@@ -160,104 +201,9 @@ bool Refinement::retreat() {
   const bool comparable = sweep_.number() > 1 && model.count == descent_.count && sweep_.last_step_counts();
   if (!comparable || model.half_square <= descent_.value * (1.0 + 1e-9)) return false;
   sweep_.set_last_step(0.25 * sweep_.last_step());
+  if (!sweep_.last_step_counts()) sweep_.prove_next();
   estimate_.move_to(problem_.moved_and_held(sweep_.last_pose(), sweep_.last_step()));
   return true;
-}
-
-void Refinement::begin_program(FitMode mode) {
-  if (!selection_.held()) {
-    selection_.hold(store_);
-    (void)program_.assign_regions(store_, verdicts_);
-    starts_.plan(estimate_.pose(), sums_.model());
-  }
-  enter(Event::program_began);
-  program_.begin(mode, store_.size());
-  sweep_.begin_again();  // the next sweep takes rows at the same pose: no foot needs a search
-}
-
-/// ok: this pose is the optimum, proven by its multipliers.
-Status Refinement::program_step(const Call& call) {
-  const BoundedFit::Step step = program_.step(sums_.model());
-  if (!succeeded(step.status)) return Status::iteration_cap;
-  if (step.settled && sweep_.proves()) return program_optimum(call);
-  if (!step.from_last) sweep_.set_last_pose(estimate_.pose());
-  estimate_.move_to(problem_.moved_and_held(sweep_.last_pose(), step.x));
-  sweep_.set_last_step(step.x);
-  estimate_.set_last_step(step.x.norm());
-  return Status::more_work;
-}
-
-/// What follows from an optimum: regions that follow their feet are assigned again; the second stage begins.
-Status Refinement::program_optimum(const Call& call) {
-  switch (program_.follow_feet(store_, verdicts_)) {
-    case ModeProgram::Regions::restless:
-      return Status::iteration_cap;
-    case ModeProgram::Regions::changed:
-      begin_program(plan_.row().first);
-      return Status::more_work;
-    case ModeProgram::Regions::at_rest:
-      break;
-  }
-  ModeOptimum& optimum = call.optimum;
-  optimum.stationarity = program_.stationarity();
-  const ModeRow& program = mode_row(program_.mode());
-  const bool last = program.mode == plan_.row().mode;
-  const double value = program_.value();
-  if (program.value_is_tolerance) optimum.smallest_tolerance = value * plan_.unit();
-  if (!last && plan_.goes_on(value)) {
-    begin_program(plan_.row().mode);
-    return Status::more_work;
-  }
-  optimum.infeasible = !last;
-  program_.report(store_, optimum);
-  return program.has_value && seek_better(value, call.concluded) ? Status::more_work : Status::ok;
-}
-
-bool Refinement::begin_starts(double own_value, bool concluded) {
-  if (starts_.done() || !concluded || problem_.config.further_starts == 0) return false;
-  enter(Event::starts_began);
-  starts_.begin(own_value, estimate_.pose(), store_.size(), program_);
-  return true;
-}
-
-/// An optimum over all points has been found. True: the fit goes on from another pose.
-bool Refinement::seek_better(double value, bool concluded) {
-  if (!starts_.done()) return begin_starts(value, concluded);
-  return value > starts_.own_value() * (1.0 + tuning::kSameOptimum) && go_back();
-}
-
-/// A program has failed. True: the fit goes on from another pose.
-bool Refinement::go_elsewhere(bool concluded) {
-  if (phase_ != Phase::mode || !mode_row(program_.mode()).has_value) return false;
-  return starts_.done() ? go_back() : begin_starts(std::numeric_limits<double>::infinity(), concluded);
-}
-
-/// The best of the starts was not the best over all points: back to the optimum found before.
-bool Refinement::go_back() {
-  if (!starts_.go_back()) return false;
-  estimate_.move_to(starts_.own_pose());
-  begin_program(plan_.row().sought);
-  return true;
-}
-
-/// Measures the next point of a start. After the last start the fit goes on from the best one, over all points, unless
-/// that is the optimum already found, or none was.
-Status Refinement::start_on(ModeOptimum& optimum) {
-  switch (starts_.advance(store_, sums_.model(), program_)) {
-    case FurtherStarts::Outcome::running:
-      return Status::more_work;
-    case FurtherStarts::Outcome::better:
-      estimate_.move_to(starts_.best_pose());
-      begin_program(plan_.row().sought);
-      sweep_.prove();
-      begin_sweep();
-      return Status::more_work;
-    case FurtherStarts::Outcome::not_better:
-      break;
-  }
-  const bool converged = starts_.found_before() && unproven_ == 0;
-  optimum.infeasible = converged && plan_.may_be_infeasible();
-  return converged ? Status::ok : Status::iteration_cap;
 }
 
 }  // namespace bladefit

@@ -1,9 +1,6 @@
 #pragma once
-#include "core/localizer/further_starts.hpp"
-#include "core/localizer/mode_program.hpp"
+#include "core/localizer/mode_fit.hpp"
 #include "core/localizer/refinement_phase.hpp"
-#include "core/localizer/running_sums.hpp"
-#include "core/localizer/sweep.hpp"
 
 namespace bladefit {
 
@@ -16,7 +13,8 @@ class Refinement {
              PointSelection& selection, RunningSums& sums, PoseEstimate& estimate, LossSchedule& loss,
              VerdictBook& verdicts);
 
-  void attach(double* rows, std::uint32_t capacity) { program_.attach(rows, capacity); }
+  /// As ModeFit::attach().
+  void attach(double* rows, SurfacePlace* places, std::uint32_t capacity) { mode_.attach(rows, places, capacity); }
   /// Forgets all points.
   void clear();
   /// A point has come, or more is wanted than what was found: what is under way is given up.
@@ -29,7 +27,9 @@ class Refinement {
   /// directions), more_work, or iteration_cap.
   [[nodiscard]] Status advance(std::uint32_t max_points, bool concluded, ModeOptimum& optimum);
 
-  [[nodiscard]] const FurtherStarts& further_starts() const { return starts_; }
+  [[nodiscard]] const FurtherStarts& further_starts() const { return mode_.further_starts(); }
+  /// Why the last refinement has not converged.
+  [[nodiscard]] FitEnd ended() const { return ended_; }
   /// Feet whose search met its cap in the last sweep.
   [[nodiscard]] std::uint32_t unproven() const { return unproven_; }
 
@@ -40,6 +40,9 @@ class Refinement {
     ModeOptimum& optimum;
   };
   void enter(RefinementEvent event) { phase_ = next_phase(phase_, event); }
+  [[nodiscard]] Status give_up(FitEnd why);
+  [[nodiscard]] Status follow(ModeFit::Next next);
+  [[nodiscard]] Status start_on(const Call& call);
   void begin_sweep();
   std::uint32_t sweep_on(std::uint32_t max_points);
   void take_in(std::uint32_t index, const Measurement& m);
@@ -48,16 +51,6 @@ class Refinement {
 
   [[nodiscard]] Status least_squares_step(const Call& call);
   [[nodiscard]] bool retreat();
-
-  void begin_program(FitMode mode);
-  [[nodiscard]] Status program_step(const Call& call);
-  [[nodiscard]] Status program_optimum(const Call& call);
-
-  [[nodiscard]] bool begin_starts(double own_value, bool concluded);
-  [[nodiscard]] bool seek_better(double value, bool concluded);
-  [[nodiscard]] bool go_elsewhere(bool concluded);
-  [[nodiscard]] bool go_back();
-  [[nodiscard]] Status start_on(ModeOptimum& optimum);
 
   /// The sum of squares before the last step.
   struct Descent {
@@ -73,13 +66,12 @@ class Refinement {
   RunningSums& sums_;
   PoseEstimate& estimate_;
   LossSchedule& loss_;
-  VerdictBook& verdicts_;
   RefinementPhase phase_ = RefinementPhase::idle;
   Sweep sweep_;
   Descent descent_;
-  ModeProgram program_;
-  FurtherStarts starts_;
+  ModeFit mode_;
   std::uint32_t unproven_ = 0;
+  FitEnd ended_ = FitEnd::none;
 };
 
 }  // namespace bladefit

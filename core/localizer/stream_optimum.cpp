@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace bladefit {
 
@@ -13,13 +12,8 @@ void StreamOptimum::stop() {
 
 /// Middle of the signed distances.
 double StreamOptimum::middle_distance(const PointStore& store, std::uint32_t stride) const {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (std::uint32_t i = 0; i < store.size(); i += stride) {
-    if (selection_.left_out(store[i], store[i].foot)) continue;
-    least = std::min(least, store[i].foot.distance);
-    most = std::max(most, store[i].foot.distance);
-  }
-  return least <= most ? 0.5 * (least + most) : 0.0;
+  const PointSelection::Span span = selection_.distances(store, stride);
+  return span.least <= span.most ? 0.5 * (span.least + span.most) : 0.0;
 }
 
 void StreamOptimum::Seeds::offer(std::uint32_t i, double how_far) {
@@ -64,7 +58,7 @@ void StreamOptimum::look_at(const PointStore& store, std::uint32_t index, const 
   bool violated = weight > 0.0 && program_.violated(m.foot.distance, weight) && !program_.holds(index);
   if (violated) program_.hold(index);
   if (feasibility_.active() && !feasibility_.holds(index)) {
-    const Foot foot = finder_.find(point, feasibility_.pose(), Search::past_margin).foot;
+    const Foot foot = finder_.find(point, feasibility_.pose(), Search::keep).foot;
     const double bound = plan_.weight(foot);
     if (bound > 0.0 && feasibility_.violated(foot.distance, bound)) {
       feasibility_.hold(index);
@@ -74,12 +68,13 @@ void StreamOptimum::look_at(const PointStore& store, std::uint32_t index, const 
   looked_at_ = violated ? 0 : std::min(looked_at_ + 1, store.size());
 }
 
-/// The rows of the working set at the pose of the program.
+/// The rows of the working set at the pose of the program. Each point keeps the sheet of its present foot, so that the
+/// program is one problem: which foot is right is found when the point is looked at.
 void StreamOptimum::set_rows(BoundTracker& tracker, const PointStore& store) const {
   const MotionBasis basis = free_motions(tracker.pose(), problem_.config.locked, problem_.frame);
   for (std::uint32_t place = 0; place < tracker.count(); ++place) {
     const StoredPoint& point = store[tracker.point(place)];
-    const Measurement m = finder_.find(point, tracker.pose(), Search::past_margin);
+    const Measurement m = finder_.find(point, tracker.pose(), Search::keep);
     const double weight = plan_.weight(m.foot);
     if (selection_.left_out(point, m.foot) || weight == 0.0) {
       tracker.skip_row(place);

@@ -6,7 +6,7 @@
 namespace bladefit {
 
 void Sweep::restart(const Pose& pose) {
-  thorough_ = false;
+  thorough_ = next_proves_ = false;
   number_ = changed_ = unproven_ = 0;
   last_pose_ = Pose();
   last_step_.setZero();
@@ -43,13 +43,15 @@ void Sweep::end() {
   } else if (thorough_ && !proven_already()) {
     since_search_ = 0.0;
   }
-  thorough_ = !last_step_counts();
+  thorough_ = next_proves_;
+  next_proves_ = false;
   changed_ = unproven_ = 0;
 }
 
 void Sweep::begin_again() {
   last_step_.setConstant(problem_.frame.length);
   number_ = 0;
+  next_proves_ = false;
 }
 
 bool Sweep::last_step_counts() const { return last_step_.norm() > tuning::kCheckedAbove * problem_.frame.length; }

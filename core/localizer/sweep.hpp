@@ -20,8 +20,14 @@ class Sweep {
 
   /// Every foot of this sweep was proven, and none was another than before.
   [[nodiscard]] bool proves() const { return thorough_ && changed_ == 0; }
+  /// It is to prove every foot.
+  [[nodiscard]] bool proof() const { return thorough_; }
+  /// The same while points keep their sheets.
+  [[nodiscard]] Search search_of_kept() const {
+    return thorough_ && !proven_already() ? Search::always : Search::keep;
+  }
   /// The next sweep is to prove every foot.
-  void prove() { thorough_ = true; }
+  void prove_next() { next_proves_ = true; }
   /// Feet of this sweep whose search met its cap.
   [[nodiscard]] std::uint32_t unproven() const { return unproven_; }
   /// Sweeps since the programs or the sums were begun, this one included.
@@ -42,6 +48,7 @@ class Sweep {
   [[nodiscard]] bool proven_already() const;
 
   const FitProblem& problem_;
+  bool next_proves_ = false;
   bool thorough_ = false;  ///< every foot of this sweep is to be proven
   std::uint32_t number_ = 0, changed_ = 0, unproven_ = 0;
   Pose last_pose_;

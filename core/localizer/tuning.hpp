@@ -89,13 +89,26 @@ inline constexpr std::uint32_t kSeedPoints = 512;
 /// [L] A pose that moves by less than this does not make what was looked at before uncertain.
 inline constexpr double kPoseAtRest = 1e-7;
 
+/// [L] A foot that is held to face its probe does so where the pose may move by this much before it averts itself.
+inline constexpr double kFacesBy = 1e-9;
+/// A merit that rises by no more than this share has not risen.
+inline constexpr double kMeritRounding = 1e-12;
+/// Sweeps of one program. Some thirty are usual; a point beyond where its probe can see it may ask for many.
+inline constexpr std::uint32_t kProgramSweeps = 150;
+/// Times that the feet of a program are found on other sheets, at most.
+inline constexpr std::uint32_t kSheetRounds = 20;
+
 // Further starts
 /// A start looks at every point where there are no more than these, and else at every second, third...
-inline constexpr std::uint32_t kStartPoints = 512;
+inline constexpr std::uint32_t kStartPoints = 4096;
 /// How far off a start lies: distances change by this many times their root mean square.
 inline constexpr double kStartDistance = 1.5;
 /// Sweeps of one start: six to ten are usual.
 inline constexpr std::uint32_t kStartSweeps = 30;
+/// Points farther out than this share of the optimum found before are searched at a start, others tracked to it.
+inline constexpr double kStartSearch = 0.7;
+/// Times that the feet of a start are proven.
+inline constexpr std::uint32_t kStartProofs = 2;
 /// Values that differ by less than this share are the same optimum.
 inline constexpr double kSameOptimum = 1e-7;
 

@@ -81,7 +81,7 @@ void BoundTracker::skip_row(std::uint32_t place) { fit_.skip_row(place); }
 bool BoundTracker::step(const QuadraticModel& model, const MotionFrame& frame, const Pose& start, std::uint8_t locked) {
   value_ = fit_.value();
   stepped_ = true;
-  const BoundedFit::Extremes extremes = fit_.extremes();
+  const BoundRows::Extremes extremes = fit_.extremes();
   least_ = extremes.least;
   most_ = extremes.most;
   const BoundedFit::Step step = fit_.step(model);

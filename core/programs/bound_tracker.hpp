@@ -58,7 +58,7 @@ class BoundTracker {
   [[nodiscard]] std::uint32_t place_to_release() const;
 
   BoundedFit fit_;
-  std::array<double, BoundedFit::kDoublesPerPoint * kPlaces> memory_{};
+  std::array<double, BoundRows::doubles_for(kPlaces)> memory_{};
   std::array<std::uint32_t, kPlaces> points_{};
   std::uint32_t count_ = 0;
   Pose pose_;

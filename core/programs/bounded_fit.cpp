@@ -9,10 +9,10 @@
 namespace bladefit {
 namespace {
 
-/// Columns of the caller's memory: 0..5 the gradient, then
-constexpr int kLower = 6, kUpper = 7, kWeight = 8;
 /// Steps below this share of the reach are rounding; steps above the second must not raise the merit.
 constexpr double kSettledBelow = 2e-11, kCheckedAbove = 1e-6;
+/// Steps of another problem than before are trusted this share of the reach at least.
+constexpr double kTrustAnew = 1e-2;
 /// A merit may rise by this share and still count as the same.
 constexpr double kMeritRounding = 1e-12;
 
@@ -22,14 +22,9 @@ double sign_of(const ActiveSet::Entry& entry) { return entry.side == Side::upper
 
 }  // namespace
 
-void BoundedFit::attach(double* memory, std::uint32_t capacity) {
-  memory_ = memory;
-  capacity_ = capacity;
-}
-
 void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
   mode_ = mode;
-  count_ = count;
+  rows_.begin(count);
   reach_ = trust_ = reach;
   active_ = ActiveSet();
   curvature_.setZero();
@@ -38,29 +33,22 @@ void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
 }
 
 void BoundedFit::resume(std::uint32_t count) {
-  count_ = count;
+  rows_.resume(count);
   trust_ = reach_;
   curvature_.setZero();
   last_.taken = curved_ = false;
 }
 
-double BoundedFit::set_weight(std::uint32_t i, double weight) {
-  double& kept = column(kWeight)[i];
-  const double change = kept == weight ? 0.0 : std::abs(kept - weight) / std::max(kept, weight);
-  kept = weight;
-  return change;
+void BoundedFit::compare_anew() {
+  last_.taken = false;
+  trust_ = std::max(trust_, kTrustAnew * reach_);
 }
-
-double BoundedFit::weight(std::uint32_t i) const { return column(kWeight)[i]; }
 
 void BoundedFit::set_basis(const MotionBasis& basis) { basis_ = basis; }
 
 void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
   const Vec6 gradient = basis_.free == 6 ? row.gradient : Vec6(basis_.directions.transpose() * row.gradient);
-  for (int k = 0; k < 6; ++k) column(k)[i] = gradient[k];
-  const double half = mode_ == FitMode::constrained ? column(kWeight)[i] : 0.0;
-  column(kLower)[i] = -half - row.distance;
-  column(kUpper)[i] = half - row.distance;
+  rows_.set(i, gradient, row.distance, mode_ == FitMode::constrained ? rows_.weight(i) : 0.0);
   for (int k = 0; k < active_.count; ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
     if (entry.index == static_cast<int>(i)) {
@@ -70,67 +58,34 @@ void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
   }
 }
 
-void BoundedFit::skip_row(std::uint32_t i) {
-  for (int k = 0; k < 6; ++k) column(k)[i] = 0.0;
-  column(kLower)[i] = -kInfinity;
-  column(kUpper)[i] = kInfinity;
-}
-
-/// Of a row that counts; NaN of one that does not.
-double BoundedFit::distance(std::uint32_t i) const { return -0.5 * (column(kLower)[i] + column(kUpper)[i]); }
-
-BoundedFit::Extremes BoundedFit::extremes() const {
-  Extremes out{kInfinity, -kInfinity};
-  for (std::uint32_t i = 0; i < count_; ++i) {
-    const double d = distance(i);
-    if (std::isnan(d)) continue;
-    out.least = std::min(out.least, d);
-    out.most = std::max(out.most, d);
-  }
-  return out;
+void BoundedFit::set_limit(std::uint32_t k, double value, const Vec6& gradient) {
+  rows_.set_limit(k, value, basis_.directions.transpose() * gradient);
 }
 
 double BoundedFit::value() const {
-  if (mode_ == FitMode::range) {
-    const Extremes found = extremes();
-    return found.most - found.least;
-  }
-  double ratio = 0.0;
-  for (std::uint32_t i = 0; i < count_; ++i) {
-    const double d = distance(i);
-    if (!std::isnan(d)) ratio = std::max(ratio, std::abs(d) / (mode_ == FitMode::minimax ? 1.0 : column(kWeight)[i]));
-  }
-  return ratio;
+  if (mode_ != FitMode::range) return rows_.largest(mode_ != FitMode::minimax);
+  const BoundRows::Extremes found = rows_.extremes();
+  return found.most - found.least;
 }
 
 double BoundedFit::slack(std::uint32_t i) const {
-  const double d = distance(i);
+  const double d = rows_.distance(i);
   if (std::isnan(d)) return kInfinity;
   if (mode_ == FitMode::minimax) return value() - std::abs(d);
-  if (mode_ != FitMode::range) return value() - std::abs(d) / column(kWeight)[i];
-  const Extremes found = extremes();
+  if (mode_ != FitMode::range) return value() - std::abs(d) / rows_.weight(i);
+  const BoundRows::Extremes found = rows_.extremes();
   return std::min(found.most - d, d - found.least);
 }
 
 double BoundedFit::merit(const QuadraticModel& model) const {
-  if (mode_ != FitMode::constrained) return value();
-  double violation = 0.0;
-  for (std::uint32_t i = 0; i < count_; ++i) violation = std::max({violation, column(kLower)[i], -column(kUpper)[i]});
-  return model.half_square + penalty_ * violation;
+  if (mode_ == FitMode::constrained) return model.half_square + penalty_ * rows_.violation();
+  return value() + penalty_ * rows_.broken_limit();
 }
 
 Constraints BoundedFit::constraints() const {
   Constraints c;
   c.variables = 6;
-  c.rows = {memory_,
-            static_cast<std::ptrdiff_t>(capacity_),
-            static_cast<int>(count_),
-            6,
-            column(kLower),
-            column(kUpper),
-            nullptr,
-            -1,
-            -1};
+  c.rows = rows_.view();
   for (int k = 0; k < 6; ++k) {
     c.upper[k] = k < basis_.free ? trust_ : 0.0;
     c.lower[k] = -c.upper[k];
@@ -143,7 +98,7 @@ Vec8 BoundedFit::set_levels(Constraints& c) const {
   Vec8 gradient = Vec8::Unit(6);
   c.variables = 7;
   c.rows.lower_level = c.rows.upper_level = 6;
-  if (mode_ == FitMode::min_tolerance) c.rows.weight = column(kWeight);
+  if (mode_ == FitMode::min_tolerance) c.rows.weight = rows_.weights();
   if (mode_ == FitMode::range) {
     c.variables = 8;
     c.rows.upper_level = 7;
@@ -173,7 +128,7 @@ ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
     Vec8 gradient = levels;
     for (int k = 0; k < active_.count; ++k) {
       const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
-      if (entry.index >= static_cast<int>(count_)) continue;
+      if (!rows_.is_row(entry.index)) continue;
       const HalfSpace h = half_space(c, entry.index, entry.side);
       hessian += weight * h.normal * h.normal.transpose();
       gradient -= weight * h.offset * h.normal;
@@ -181,7 +136,9 @@ ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
     if (!CholeskyFactor<kMaxVariables>(hessian).positive_definite()) continue;
     ActiveSetResult result = minimize_quadratic(hessian, gradient, c, active_);
     if (!succeeded(result.status)) break;
-    result.objective = levels.dot(result.x);
+    const Vec6 x = result.x.head<6>();
+    result.objective = levels.dot(result.x) + 0.5 * x.dot(curvature_ * x);  // what the step promises
+    if (result.objective > value()) break;  // the constraints of before are not those that matter
     result.residuals = kkt_residuals(nullptr, levels, c, result.x, result.active);
     return result;
   }
@@ -238,22 +195,39 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
   if (!succeeded(result.status)) return step;
   active_ = result.active;
   stationarity_ = result.residuals.stationarity;
-  for (int k = 0; k < active_.count; ++k)
-    penalty_ = std::max(penalty_, 10.0 * active_.entries[static_cast<std::size_t>(k)].multiplier);
+  raise_penalties();
   step.x = basis_.directions * result.x.head<6>();
   step.settled = step.x.norm() <= kSettledBelow * reach_;
   last_.taken = true;
-  last_.merit = mode_ == FitMode::constrained ? merit(model) : present;
+  last_.merit = merit(model);
   last_.promise = result.objective;
   last_.x = step.x;
   return step;
+}
+
+void BoundedFit::raise_penalties() {
+  for (int k = 0; k < active_.count; ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    if (mode_ != FitMode::constrained && rows_.is_distance(entry.index)) continue;  // a level gives way to those
+    penalty_ = std::max(penalty_, 10.0 * entry.multiplier);
+  }
+}
+
+std::uint32_t BoundedFit::active_limits() const {
+  std::uint32_t count = 0;
+  for (int k = 0; k < active_.count; ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    const bool limit = rows_.is_row(entry.index) && !rows_.is_distance(entry.index);
+    if (limit && entry.multiplier > 0.0) ++count;
+  }
+  return count;
 }
 
 ActiveRows BoundedFit::active_rows() const {
   ActiveRows out;
   for (int k = 0; k < active_.count && out.count < out.index.size(); ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
-    if (entry.index >= static_cast<int>(count_)) continue;  // the bound of a step
+    if (!rows_.is_distance(entry.index)) continue;  // a limit, or the bound of a step
     out.index[out.count] = static_cast<std::uint32_t>(entry.index);
     out.multiplier[out.count] = entry.multiplier;
     out.sign[out.count] = entry.side == Side::upper ? 1 : -1;

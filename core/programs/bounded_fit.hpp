@@ -4,6 +4,7 @@
 #include "core/fit/quadratic_model.hpp"
 #include "core/programs/active_rows.hpp"
 #include "core/programs/active_set.hpp"
+#include "core/programs/bound_rows.hpp"
 
 namespace bladefit {
 
@@ -13,28 +14,36 @@ namespace bladefit {
 /// its Lagrangian. Rows live in the caller's memory.
 class BoundedFit {
  public:
-  /// Doubles of the caller's memory a point needs: six of its gradient, two bounds, its weight.
-  static constexpr std::size_t kDoublesPerPoint = 9;
-
-  void attach(double* memory, std::uint32_t capacity);
+  /// `memory`: BoundRows::doubles_for(capacity); it outlives this.
+  void attach(double* memory, std::uint32_t capacity) { rows_.attach(memory, capacity); }
 
   /// Begins a fit of mode minimax, range, min_tolerance or constrained over `count` points. `reach` [mm]: the pose
   /// moves no farther in one step.
   void begin(FitMode mode, std::uint32_t count, double reach);
   /// Goes on with `count` points, some of them new: from the present active set, with nothing to compare a step with.
   void resume(std::uint32_t count);
+  /// The rows are of another problem than before: the next step is not compared with the last one.
+  void compare_anew();
   [[nodiscard]] FitMode mode() const { return mode_; }
 
   /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again; a point of
   /// weight 0 must be skipped. Returns how much it changed, relative to the larger one.
-  double set_weight(std::uint32_t i, double weight);
-  [[nodiscard]] double weight(std::uint32_t i) const;
+  double set_weight(std::uint32_t i, double weight) { return rows_.set_weight(i, weight); }
+  [[nodiscard]] double weight(std::uint32_t i) const { return rows_.weight(i); }
   /// Steps go along the free directions of the basis only. Given before the rows of a pose.
   void set_basis(const MotionBasis& basis);
   /// The row of point i at the present pose.
   void set_row(std::uint32_t i, const DistanceRow& row);
   /// Point i does not count.
-  void skip_row(std::uint32_t i);
+  void skip_row(std::uint32_t i) { rows_.skip(i); }
+
+  /// Limit number k < count of limits at the present pose: value + gradient x <= 0 for a step x. [mm], gradient of unit
+  /// length.
+  void set_limit(std::uint32_t k, double value, const Vec6& gradient);
+  /// Limit k binds nothing at the present pose.
+  void free_limit(std::uint32_t k) { rows_.free_limit(k); }
+  /// So many limits; each is set or freed before a step.
+  void set_limits(std::uint32_t count) { rows_.set_limits(count); }
 
   struct Step {
     Status status = Status::ok;  ///< of the program; not ok: no step
@@ -48,15 +57,16 @@ class BoundedFit {
 
   /// At the present rows: max |d|, max d - min d, max |d| / w, or for constrained max |d| / tolerance.
   [[nodiscard]] double value() const;
+  /// What a step must not raise: the value, in constrained the sum of squares, and a penalty for what it breaks.
+  [[nodiscard]] double merit(const QuadraticModel& model) const;
 
-  /// Smallest and largest signed distance [mm].
-  struct Extremes {
-    double least = 0, most = 0;
-  };
-  [[nodiscard]] Extremes extremes() const;
+  /// Of the signed distances.
+  [[nodiscard]] BoundRows::Extremes extremes() const { return rows_.extremes(); }
   /// How far row i is from its bound, in its own weight; infinite where it does not count.
   [[nodiscard]] double slack(std::uint32_t i) const;
 
+  /// How many limits the solution of the last program rests on.
+  [[nodiscard]] std::uint32_t active_limits() const;
   /// The rows that the solution of the last program rests on.
   [[nodiscard]] ActiveRows active_rows() const;
   /// Of the last program, at the optimum also of the fit: relative stationarity of the Karush-Kuhn-Tucker conditions.
@@ -70,18 +80,15 @@ class BoundedFit {
   [[nodiscard]] ActiveSetResult solve_levels() const;
   [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
   [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
-  [[nodiscard]] double distance(std::uint32_t i) const;
-  [[nodiscard]] double merit(const QuadraticModel& model) const;
-  [[nodiscard]] double* column(int k) const { return memory_ + static_cast<std::size_t>(k) * capacity_; }
+  void raise_penalties();
 
-  double* memory_ = nullptr;
-  std::uint32_t capacity_ = 0, count_ = 0;
+  BoundRows rows_;
   FitMode mode_ = FitMode::minimax;
   MotionBasis basis_;             ///< the unknowns are y in x = directions y
   double reach_ = 0, trust_ = 0;  ///< trust: how far the expansions have held [mm]
   ActiveSet active_;
   Mat6 curvature_ = Mat6::Zero();  ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points
-  double penalty_ = 0;             ///< of a violated tolerance, above the sum of the multipliers
+  double penalty_ = 0;             ///< of a violated tolerance or limit, above the largest of the multipliers
   bool curved_ = false;            ///< linear programs have promised too much: their curvature is taken into account
   struct LastStep {
     bool taken = false;

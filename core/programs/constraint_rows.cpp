@@ -38,14 +38,15 @@ void gaps(const ConstraintRows& rows, const Vec8& x, int first, int count, Gaps&
   out.lower.fill(-kInfinity);
   out.upper.fill(-kInfinity);
   const double* weight = rows.weight ? rows.weight + first : nullptr;
+  const int leveled = std::clamp(rows.count - rows.plain - first, 0, count);
   const auto n = static_cast<std::size_t>(count);
   if (rows.lower) {
     for (std::size_t i = 0; i < n; ++i) out.lower[i] = rows.lower[static_cast<std::size_t>(first) + i] - value[i];
-    if (rows.lower_level >= 0) add_multiple(out.lower, weight, -x[rows.lower_level], count);
+    if (rows.lower_level >= 0) add_multiple(out.lower, weight, -x[rows.lower_level], leveled);
   }
   if (rows.upper) {
     for (std::size_t i = 0; i < n; ++i) out.upper[i] = value[i] - rows.upper[static_cast<std::size_t>(first) + i];
-    if (rows.upper_level >= 0) add_multiple(out.upper, weight, -x[rows.upper_level], count);
+    if (rows.upper_level >= 0) add_multiple(out.upper, weight, -x[rows.upper_level], leveled);
   }
 }
 
@@ -103,7 +104,7 @@ HalfSpace half_space(const Constraints& constraints, int index, Side side) {
   }
   for (int j = 0; j < rows.width; ++j) out.normal[j] = sign * rows.coefficients[j * rows.stride + index];
   const int of_level = side == Side::lower ? rows.lower_level : rows.upper_level;
-  if (of_level >= 0) out.normal[of_level] += rows.weight ? rows.weight[index] : 1.0;
+  if (of_level >= 0 && index < rows.count - rows.plain) out.normal[of_level] += rows.weight ? rows.weight[index] : 1.0;
   const double* bound = side == Side::lower ? rows.lower : rows.upper;
   out.offset = bound ? sign * bound[index] : -kInfinity;
   return out;
@@ -126,6 +127,7 @@ bool well_formed(const Constraints& constraints) {
   const int n = constraints.variables;
   if (n < 1 || n > kMaxVariables || rows.count < 0 || rows.width < 0 || rows.width > n) return false;
   if (rows.count > std::numeric_limits<int>::max() - kMaxVariables) return false;
+  if (rows.plain < 0 || rows.plain > rows.count) return false;
   if (rows.lower_level < -1 || rows.lower_level >= n || rows.upper_level < -1 || rows.upper_level >= n) return false;
   return rows.count == 0 || rows.width == 0 || (rows.coefficients && rows.stride >= rows.count);
 }

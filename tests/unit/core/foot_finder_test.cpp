@@ -56,7 +56,7 @@ TEST(FootFinder, FindsPointsTogetherToTheBitsOfEachAlone) {
       std::vector<std::uint32_t> indices(count), order;
       std::iota(indices.rbegin(), indices.rend(), first);  // not as they are stored
       finder.find_each(
-          found.parts->store, indices, found.pose, kAway, [search](const StoredPoint&) { return search; },
+          found.parts->store, indices, found.pose, kAway, [&](std::uint32_t index) { return FootStart{place_of(found.parts->store[index]), search}; },
           [&](std::uint32_t index, const Measurement& m) {
             order.push_back(index);
             const Measurement alone = finder.find(found.parts->store[index], found.pose, search);
@@ -75,7 +75,10 @@ TEST(FootFinder, FindsPointsTogetherToTheBitsOfEachAlone) {
 TEST(FootFinder, AsksOfEachPointHowItIsToBeSought) {
   Found found(9);
   const std::vector<std::uint32_t> indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
-  const auto odd = [](const StoredPoint& p) { return p.sequence % 2 == 1 ? Search::always : Search::if_doubtful; };
+  const auto odd = [&](std::uint32_t index) {
+    const StoredPoint& p = found.parts->store[index];
+    return FootStart{place_of(p), p.sequence % 2 == 1 ? Search::always : Search::if_doubtful};
+  };
   for (std::uint32_t i = 0; i < 9; ++i) found.parts->store[i].sequence = i + 1;
   found.parts->finder.find_each(
       found.parts->store, indices, found.pose, kAway, odd,

@@ -25,10 +25,12 @@ LocalizerConfig started_config() {
 struct Sought {
   Sought()
       : parts(reference_design("dtmb4119").image(), started_config()),
-        rows(BoundedFit::kDoublesPerPoint * 60),
+        rows(BoundRows::doubles_for(60)),
+        places(KeptSheets::kPlacesPerPoint * 60),
         program(parts->problem, parts->plan),
         starts(parts->problem, parts->plan, parts->finder, parts->selection) {
     program.attach(rows.data(), 60);
+    sheets.attach(places.data(), 60);
     parts.store(thinned(read_case("dtmb4119"), 0, 45));
     parts.fit();
     parts->selection.hold(parts->store);
@@ -40,13 +42,15 @@ struct Sought {
     Outcome outcome = Outcome::running;
     for (int k = 0; outcome == Outcome::running && k < 100000; ++k) {
       EXPECT_FALSE(starts.done());
-      outcome = starts.advance(parts->store, parts->sums.model(), program);
+      outcome = starts.advance(parts->store, parts->sums.model(), program, sheets);
     }
     return outcome;
   }
 
   OwnedParts parts;
   std::vector<double> rows;
+  std::vector<SurfacePlace> places;
+  KeptSheets sheets;
   ModeProgram program;
   FurtherStarts starts;
 };
@@ -108,7 +112,7 @@ TEST(FurtherStarts, DoNotGoBackToNothing) {
 TEST(FurtherStarts, AreGivenUpWhileUnderWayButKeptOnceDone) {
   Sought search;
   search.begin(1e3);
-  (void)search.starts.advance(search.parts->store, search.parts->sums.model(), search.program);
+  (void)search.starts.advance(search.parts->store, search.parts->sums.model(), search.program, search.sheets);
   search.starts.interrupt();
   EXPECT_FALSE(search.starts.done());
   search.begin(1e3);

@@ -29,7 +29,7 @@ struct Programmed {
   explicit Programmed(FitMode mode = FitMode::min_tolerance, RegionPolicy regions = RegionPolicy::follow,
                       double leading_edge = 0.1)
       : parts(reference_design("dtmb4119").image(), program_config(mode, regions, leading_edge)),
-        rows(BoundedFit::kDoublesPerPoint * 4),
+        rows(BoundRows::doubles_for(4)),
         program(parts->problem, parts->plan) {
     program.attach(rows.data(), 4);
     for (const std::uint32_t sequence : {1U, 2U}) parts->store.append(numbered(sequence));

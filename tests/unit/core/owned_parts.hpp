@@ -43,11 +43,12 @@ class OwnedParts {
       : points_(config.capacity),
         order_(config.capacity),
         ring_(config.capacity),
-        rows_(BoundedFit::kDoublesPerPoint * config.capacity),
+        rows_(BoundRows::doubles_for(config.capacity)),
+        places_(KeptSheets::kPlacesPerPoint * config.capacity),
         parts_(design, config) {
     parts_.store.attach(points_.data(), order_.data(), config.capacity);
     parts_.verdicts.attach(ring_.data(), config.capacity);
-    parts_.refinement.attach(rows_.data(), config.capacity);
+    parts_.refinement.attach(rows_.data(), places_.data(), config.capacity);
     parts_.sums.clear(config.start);
     parts_.estimate.reset(parts_.sums.model());
   }
@@ -98,6 +99,7 @@ class OwnedParts {
   std::vector<StoredPoint> points_;
   std::vector<std::uint32_t> order_, ring_;
   std::vector<double> rows_;
+  std::vector<SurfacePlace> places_;
   LocalizerParts parts_;
 };
 

@@ -27,7 +27,7 @@ struct Sweeping {
   /// Ends a sweep with a step of this length [half diagonals].
   void end(double lengths) {
     sweep.set_last_step(step(lengths));
-    sweep.end();
+    sweep.end(!sweep.last_step_counts());
   }
   void count(bool changed, bool proven) {
     Measurement m;
@@ -143,7 +143,7 @@ TEST(Sweep, BeginsAgainWithASweepThatTakesRows) {
   EXPECT_EQ(s.sweep.number(), 2U);
   EXPECT_EQ(s.search(), Search::always);
   s.sweep.begin_again();
-  s.sweep.end();
+  s.sweep.end(false);
   s.begin(0.0);
   EXPECT_EQ(s.sweep.number(), 1U) << "no step is compared with those before";
   EXPECT_EQ(s.search(), Search::if_doubtful);

@@ -1,0 +1,71 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "core/algebra/matrix.hpp"
+#include "core/programs/constraint_rows.hpp"
+
+namespace bladefit {
+
+/// The linearised distances of a program, and limits beside them, in the caller's memory, column by column.
+class BoundRows {
+ public:
+  /// Conditions beside the distances that a step must keep.
+  static constexpr std::uint32_t kMostLimits = 16;
+  /// Doubles of the caller's memory for `capacity` points: six of a gradient, two bounds and a weight for each and for
+  /// the limits.
+  static constexpr std::uint64_t doubles_for(std::uint64_t capacity) { return 9 * (capacity + kMostLimits); }
+
+  void attach(double* memory, std::uint32_t capacity);
+  /// `count` points, and no limit.
+  void begin(std::uint32_t count);
+  /// Further points, some of them new.
+  void resume(std::uint32_t count) { count_ = count; }
+  [[nodiscard]] std::uint32_t count() const { return count_; }
+
+  /// Kept until it is set again. Returns how much it changed, relative to the larger one.
+  double set_weight(std::uint32_t i, double weight);
+  [[nodiscard]] double weight(std::uint32_t i) const { return column(kWeight)[i]; }
+  /// |d + gradient x| <= half and the level, where there is one.
+  void set(std::uint32_t i, const Vec6& gradient, double distance, double half);
+  void skip(std::uint32_t i);
+  /// NaN of a row that does not count.
+  [[nodiscard]] double distance(std::uint32_t i) const;
+  /// Smallest and largest signed distance [mm].
+  struct Extremes {
+    double least = 0, most = 0;
+  };
+  [[nodiscard]] Extremes extremes() const;
+  /// Largest |d| over the weight, or over 1.
+  [[nodiscard]] double largest(bool weighted) const;
+  /// By how much the distances and the limits break their bounds at most; 0 where they do not.
+  [[nodiscard]] double violation() const;
+
+  /// So many limits; each is set or freed before a step.
+  void set_limits(std::uint32_t count) { limits_ = count; }
+  /// value + gradient x <= 0.
+  void set_limit(std::uint32_t k, double value, const Vec6& gradient);
+  void free_limit(std::uint32_t k) { skip(count_ + k); }
+  [[nodiscard]] std::uint32_t limits() const { return limits_; }
+  /// By how much the limits are broken at most; 0 where they are not.
+  [[nodiscard]] double broken_limit() const;
+
+  /// What an active constraint's index stands for: a distance; this or a limit; else the bound of a variable.
+  [[nodiscard]] bool is_distance(int index) const { return index < static_cast<int>(count_); }
+  [[nodiscard]] bool is_row(int index) const { return index < static_cast<int>(count_ + limits_); }
+
+  /// All rows, without levels.
+  [[nodiscard]] ConstraintRows view() const;
+  [[nodiscard]] const double* weights() const { return column(kWeight); }
+
+ private:
+  /// Columns: 0..5 the gradient, then
+  static constexpr int kLower = 6, kUpper = 7, kWeight = 8;
+  [[nodiscard]] std::size_t stride() const { return std::size_t{capacity_} + kMostLimits; }
+  [[nodiscard]] double* column(int k) const { return memory_ + static_cast<std::size_t>(k) * stride(); }
+
+  double* memory_ = nullptr;
+  std::uint32_t capacity_ = 0, count_ = 0, limits_ = 0;
+};
+
+}  // namespace bladefit
