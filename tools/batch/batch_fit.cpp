@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/cpu_clock.hpp"
-#include "tools/batch/owned_localizer.hpp"
 #include "tools/batch/result_record.hpp"
+#include "tools/batch/world_checks.hpp"
 #include "tools/files/tool_error.hpp"
+#include "tools/search/owned_localizer.hpp"
 
 namespace bladefit {
 namespace {
@@ -98,27 +101,101 @@ void prove_starts(const DesignImage& design, const FitPlan& plan, const std::vec
   batch.proof.cpu_s = thread_cpu_s() - began;
 }
 
-}  // namespace
-
-BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                    const std::string& name) {
+/// A fit from the start of its plan, told as it is.
+struct FittedPoints {
   BatchFit batch;
+  PoseFit quality;
+};
+
+FittedPoints fitted_from_start(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                               const std::string& name) {
+  FittedPoints out;
   const double began = thread_cpu_s();
   StagedPoints fit = staged(design, plan, points, plan.starts, name);
   refine_all(*fit.localizer, points.size());
-  batch.fit = {thread_cpu_s() - began, fit.searches + fit.localizer->fit().searches};
+  out.batch.fit = {thread_cpu_s() - began, fit.searches + fit.localizer->fit().searches};
   const bool tracked = plan.starts == FootStarts::neighbour || plan.starts == FootStarts::curves;
-  if (tracked) prove_starts(design, plan, points, name, fit, batch);
+  if (tracked) prove_starts(design, plan, points, name, fit, out.batch);
   const bool as_measured = is_identity(plan.localizer.start);
-  batch.result = result_record(
+  const std::vector<Verdict> verdicts = verdicts_of(*fit.localizer, points);
+  out.quality = measure_fit(plan.localizer, points, fit.localizer->fit(), verdicts);
+  out.batch.result = result_record(
       {.design = design,
        .plan = plan,
        .points = points,
        .report = fit.localizer->fit(),
-       .verdicts = verdicts_of(*fit.localizer, points),
+       .verdicts = verdicts,
        .before = as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points)});
+  return out;
+}
+
+/// What is told of points that have no pose: nothing but their numbers.
+BatchFit without_fit(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Verdict> verdicts;
+  for (const ProbePoint& point : points) {
+    Verdict verdict;
+    verdict.sequence = point.sequence;
+    verdict.foot.distance = kUnknown;
+    verdicts.push_back(verdict);
+  }
+  FitReport report;
+  report.status = FitStatus::tracking;
+  report.pose = plan.localizer.start;
+  BatchFit batch;
+  batch.result = result_record({.design = design,
+                                .plan = plan,
+                                .points = points,
+                                .report = report,
+                                .verdicts = verdicts,
+                                .before = std::vector<double>(points.size(), kUnknown)});
+  return batch;
+}
+
+/// Where there is a doubt no point is judged, and nothing is told to be cut or welded.
+void add_findings(const Findings& findings, Result& result) {
+  result.doubts.insert(result.doubts.end(), findings.doubts.begin(), findings.doubts.end());
+  result.notes.insert(result.notes.end(), findings.notes.begin(), findings.notes.end());
+  if (result.doubts.empty()) return;
+  for (ResultPoint& point : result.points) {
+    if (point.state != PointState::rejected) point.state = PointState::pending;
+    point.action = Action::none;
+  }
+}
+
+/// The fit from the start that the checks chose, and again from a better one where it went astray.
+BatchFit checked_fit(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                     const std::string& name) {
+  WorldChecks checks(design, plan, points);
+  StartChoice choice = checks.choose_start();
+  if (choice.hopeless) {
+    BatchFit batch = without_fit(design, plan, points);
+    add_findings(choice.findings, batch.result);
+    return batch;
+  }
+  FitPlan used = plan;
+  used.localizer.start = choice.pose;
+  FittedPoints fitted = fitted_from_start(design, used, points, name);
+  if (!choice.searched) {
+    if (const std::optional<StartChoice> better = checks.better_start(fitted.quality)) {
+      choice = *better;
+      used.localizer.start = choice.pose;
+      fitted = fitted_from_start(design, used, points, name);
+    }
+  }
+  add_findings(choice.findings, fitted.batch.result);
+  add_findings(checks.findings_of(fitted.quality, choice.searched), fitted.batch.result);
+  return fitted.batch;
+}
+
+}  // namespace
+
+BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                    const std::string& name) {
+  BatchFit batch = checked_fit(design, plan, points, name);
   batch.result.name = name;
-  if (const std::uint32_t count = batch.result.all.count; count < 6) {
+  const std::uint32_t count = batch.result.all.count;
+  if (count < 6 && batch.result.doubts.empty()) {
     throw ToolError(
         fmt::format("{}: {} points count in the fit, at least 6 are needed ({} of {} are outside the window or at an "
                     "edge); probe more points",
@@ -136,6 +213,7 @@ Result result_of(const DesignImage& design, const FitPlan& plan, const std::vect
                                  .verdicts = verdicts,
                                  .before = distances_as_measured(design, plan.localizer, points)});
   result.name = name;
+  add_findings(doubts_about(design, plan, points, report, verdicts), result);
   return result;
 }
 

@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::size_t kListed = 10;
 
-/// Distance from the shaft axis x of the design.
-double radius(const Vec3& point) { return std::hypot(point[1], point[2]); }
-
 /// Lengths of a result as the operator reads them.
 std::string length(const Result& result, double mm) {
   return fmt::format("{:.6g} {}", result.in_units(mm), result.units);
@@ -23,7 +20,7 @@ std::string length(const Result& result, double mm) {
 
 std::string where(const Result& result, const ResultPoint& point) {
   return fmt::format("{:+.3f} {} at r/R {:.2f}", result.in_units(point.distance), result.units,
-                     radius(point.foot.value()) / result.details->tip_radius);
+                     result.axis.radius_of(point.foot.value()) / result.tip_radius);
 }
 
 std::string region_line(const Result& result, Region region, const char* name) {
@@ -187,7 +184,10 @@ std::string tolerance_lines(const Result& result) {
 }  // namespace
 
 std::string operator_summary(const Result& result) {
-  std::string text = fit_lines(result) + optimum_line(result) + fit_remarks(result);
+  std::string text;
+  for (const VerdictReason& doubt : result.doubts) text += fmt::format("Not decided: {}\n", doubt.text);
+  for (const std::string& note : result.notes) text += note + "\n";
+  text += fit_lines(result) + optimum_line(result) + fit_remarks(result);
   if (result.details->unproven > 0)
     text += fmt::format("{} feet could not be proven the nearest: do not rely on this fit\n", result.details->unproven);
   return text + point_lines(result) + tolerance_lines(result);

@@ -8,6 +8,7 @@
 namespace bladefit {
 
 int exit_code_of(const Result& result) {
+  if (!result.doubts.empty()) return kNotDecided;
   if (result.status == word_of(FitStatus::infeasible)) return kOutOfTolerance;
   const bool out = std::any_of(result.points.begin(), result.points.end(),
                                [](const ResultPoint& point) { return point.state == PointState::out; });

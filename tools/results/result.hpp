@@ -8,8 +8,10 @@
 
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/pose.hpp"
+#include "core/inspection/shaft_axis.hpp"
 #include "core/inspection/verdict.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
+#include "tools/results/verdict_reason.hpp"
 
 namespace bladefit {
 
@@ -68,7 +70,6 @@ struct FitDetails {
   std::uint32_t determined = 0;  ///< degrees of freedom
   std::uint32_t unproven = 0;    ///< feet that could not be proven the nearest
   double stationarity = 0;       ///< of the optimum's Karush-Kuhn-Tucker conditions, relative
-  double tip_radius = 0;         ///< largest radius of the design about its x axis [mm]
 };
 
 /// A fit and its points: what the summary, result.json, verdicts.csv and every report are made from. `localize` and
@@ -86,12 +87,16 @@ struct Result {
   std::optional<Mat6> covariance;  ///< of (w, dt) [rad, mm]; nothing where undetermined
   BladeDistances all;
   RegionDistances leading_edge, rest;
-  std::vector<ParameterBox> boxes;   ///< of the leading-edge region
-  double tolerance_factor = 0;       ///< optimum of the mode; 0 = it has none
-  Certificate certificate;           ///< of that optimum
-  std::uint32_t further_starts = 0;  ///< from how many other poses the optimum was sought again,
-  std::uint32_t same_optimum = 0;    ///< and how many of these led to the same one
-  std::vector<std::string> locked;   ///< degrees of freedom that kept their start value: tx, ry ...
+  std::vector<ParameterBox> boxes;    ///< of the leading-edge region
+  double tolerance_factor = 0;        ///< optimum of the mode; 0 = it has none
+  Certificate certificate;            ///< of that optimum
+  std::uint32_t further_starts = 0;   ///< from how many other poses the optimum was sought again,
+  std::uint32_t same_optimum = 0;     ///< and how many of these led to the same one
+  ShaftAxis axis;                     ///< from which radii are measured
+  double tip_radius = 0;              ///< R of r/R; 0 = not known
+  std::vector<VerdictReason> doubts;  ///< why the blade is not decided, whatever its distances are
+  std::vector<std::string> notes;     ///< what the user should know of how the pose was found, a line each
+  std::vector<std::string> locked;    ///< degrees of freedom that kept their start value: tx, ry ...
   std::optional<LossUsed> loss;
   Outliers outliers;
   std::vector<ResultPoint> points;  ///< rising sequence
@@ -101,7 +106,7 @@ struct Result {
   [[nodiscard]] double in_units(double length) const { return length / mm_per_unit; }
 };
 
-/// Exit code: 1 where a point is out of tolerance or no pose meets the tolerances, else 0.
+/// Exit code: 4 where there is a doubt, 1 where a point is out of tolerance or no pose meets the tolerances, else 0.
 [[nodiscard]] int exit_code_of(const Result& result);
 
 }  // namespace bladefit
