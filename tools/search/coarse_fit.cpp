@@ -1,5 +1,6 @@
 #include "tools/search/coarse_fit.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
