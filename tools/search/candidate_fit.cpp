@@ -11,13 +11,15 @@ namespace {
 
 /// Sweeps of one candidate: six to ten are usual, and what needs more is not the pose sought.
 constexpr int kSweeps = 24;
+/// A direction along the surface tells nothing: its cosine with the normal must be this large.
+constexpr double kTells = 0.3;
 /// Share of the points that are to be nearer than the typical distance: defects and outliers are beyond it.
 constexpr double kTypicalShare = 0.75;
 
 LocalizerConfig plain(const LocalizerConfig& config, const Pose& start) {
   LocalizerConfig out;
   out.probe_radius_mm = config.probe_radius_mm;
-  out.use_approach = config.use_approach;
+  out.use_approach = false;  // a search for feet that face the probe has no bound where none is near
   out.start = start;
   return out;
 }
@@ -27,6 +29,14 @@ double typical(std::vector<double>& sizes) {
   const auto place = static_cast<std::ptrdiff_t>(kTypicalShare * static_cast<double>(sizes.size() - 1));
   std::nth_element(sizes.begin(), sizes.begin() + place, sizes.end());
   return sizes[static_cast<std::size_t>(place)];
+}
+
+/// Counts the direction of a point whose foot has this outward normal.
+void count_direction(const Pose& pose, const ProbePoint& point, const Vec3& normal, PoseFit& fit) {
+  const double cosine = normal.dot(pose.rotation * Vec3(point.approach.data()));
+  if (std::abs(cosine) < kTells) return;
+  ++fit.told;
+  if (cosine > 0.0) ++fit.averted;
 }
 
 std::uint32_t commonest_patch(const std::vector<Verdict>& verdicts) {
@@ -41,6 +51,7 @@ std::uint32_t commonest_patch(const std::vector<Verdict>& verdicts) {
 
 PoseFit measure_fit(const LocalizerConfig& config, const std::vector<ProbePoint>& points, const FitReport& report,
                     const std::vector<Verdict>& verdicts) {
+  const bool directed = config.use_approach;
   PoseFit fit;
   fit.pose = report.pose;
   fit.points = static_cast<std::uint32_t>(points.size());
@@ -55,6 +66,7 @@ PoseFit measure_fit(const LocalizerConfig& config, const std::vector<ProbePoint>
     sizes.push_back(std::abs(distance - config.probe_radius_mm));
     if (verdicts[k].state == PointState::rejected || verdicts[k].foot.kind != FootKind::interior) continue;
     ++fit.counted;
+    if (directed) count_direction(report.pose, points[k], verdicts[k].foot.normal, fit);
     square += verdicts[k].foot.distance * verdicts[k].foot.distance;
   }
   if (fit.counted > 0) fit.rms_mm = std::sqrt(square / fit.counted);
@@ -80,7 +92,7 @@ PoseFit fit_candidate(const DesignImage& design, const LocalizerConfig& config, 
   for (std::size_t k = 0; k < taken.size(); ++k) {
     if (!succeeded(localizer->verdict_of(taken[k].sequence, verdicts[k]))) verdicts[k].state = PointState::rejected;
   }
-  return measure_fit(own, taken, localizer->fit(), verdicts);
+  return measure_fit(config, taken, localizer->fit(), verdicts);
 }
 
 }  // namespace bladefit

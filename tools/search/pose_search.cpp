@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "tools/search/coarse_fit.hpp"
 #include "tools/search/even_rotations.hpp"
@@ -143,7 +144,7 @@ std::vector<PoseFit> PoseSearch::poses_of(const std::vector<ProbePoint>& all) co
   std::vector<PoseFit> fits;
   for (const Start& start : starts) fits.push_back(fit_candidate(design_, config_, points, start.pose));
   return best_of(fits, points, kMostPoses, kSameFit * samples_.half_diagonal_mm,
-                 [](const PoseFit& fit) { return fit.typical_mm; });
+                 [](const PoseFit& fit) { return std::pair(fit.is_averted(), fit.typical_mm); });
 }
 
 }  // namespace bladefit
