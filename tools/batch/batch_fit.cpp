@@ -9,6 +9,7 @@
 
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/cpu_clock.hpp"
+#include "tools/batch/far_points.hpp"
 #include "tools/batch/result_record.hpp"
 #include "tools/batch/world_checks.hpp"
 #include "tools/files/tool_error.hpp"
@@ -36,16 +37,19 @@ std::vector<double> distances_of(const std::vector<Verdict>& verdicts) {
   return distances;
 }
 
-/// Oriented distances of the points as measured, at C = I, t = 0 [mm], by searches.
+/// Oriented distances of the points as measured, at C = I, t = 0 [mm], by searches. Where the points as measured are
+/// far from the design, feet are the nearest whatever the probing directions: hardly one would face the probe there,
+/// and to find that out takes milliseconds a point.
 std::vector<double> distances_as_measured(const DesignImage& design, const LocalizerConfig& config,
                                           const std::vector<ProbePoint>& points) {
   const Surface surface(design);
+  const bool directed = config.use_approach && !is_far_from(surface, points, Pose(), config.probe_radius_mm);
   std::vector<double> distances;
   distances.reserve(points.size());
   for (const ProbePoint& point : points) {
     ProjectionQuery query;
     query.point = Vec3(point.position.data());
-    if (config.use_approach) query.approach = Vec3(point.approach.data());
+    if (directed) query.approach = Vec3(point.approach.data());
     const Projection nearest = project_global(surface, query, nullptr).nearest;
     distances.push_back(foot_of(surface, nearest, config.probe_radius_mm).distance);
   }
@@ -175,6 +179,7 @@ BatchFit checked_fit(const DesignImage& design, const FitPlan& plan, const std::
   }
   FitPlan used = plan;
   used.localizer.start = choice.pose;
+  used.localizer.use_approach = plan.localizer.use_approach && !choice.averted;
   FittedPoints fitted = fitted_from_start(design, used, points, name);
   if (!choice.searched) {
     if (const std::optional<StartChoice> better = checks.better_start(fitted.quality)) {

@@ -36,28 +36,17 @@ std::optional<double> share_outwards(const Surface& surface, const std::vector<P
   return static_cast<double>(outwards) / static_cast<double>(told);
 }
 
-/// At a start pose so near to that of the fit the nearest places tell as much [half diagonals].
-constexpr double kNearStart = 0.1;
-
 }  // namespace
 
 std::string wrong_directions(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                             const Pose& fitted) {
+                             const Pose& pose) {
   if (!plan.localizer.use_approach) return "";
-  const Surface surface(design);
-  const std::vector<ProbePoint> some = some_of(points, kLooks);
-  std::vector<Pose> poses = {fitted};
-  const Pose& start = plan.localizer.start;
-  if (apart(some, start, fitted) < kNearStart * surface.half_diagonal()) poses.push_back(start);
-  for (const Pose& pose : poses) {
-    const std::optional<double> share = share_outwards(surface, some, pose);
-    if (!share || *share < kNearlyAll) continue;
-    return fmt::format(
-        "at {:.0f} % of the points the probing direction runs out of the material: the outward side is the wrong one "
-        "(--outward), or i,j,k run from the material to the probe; turn one of them round, or give --ignore-approach",
-        100 * *share);
-  }
-  return "";
+  const std::optional<double> share = share_outwards(Surface(design), some_of(points, kLooks), pose);
+  if (!share || *share < kNearlyAll) return "";
+  return fmt::format(
+      "at {:.0f} % of the points the probing direction runs out of the material: the outward side is the wrong one "
+      "(--outward), or i,j,k run from the material to the probe; turn one of them round, or give --ignore-approach",
+      100 * *share);
 }
 
 void check_outward(const DesignImage& design, OutwardOption outward) {

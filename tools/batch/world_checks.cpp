@@ -7,53 +7,24 @@
 #include <limits>
 #include <numbers>
 
-#include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/blades.hpp"
 #include "tools/batch/credibility.hpp"
+#include "tools/batch/far_points.hpp"
 #include "tools/batch/side_check.hpp"
 #include "tools/batch/unit_check.hpp"
 
 namespace bladefit {
 namespace {
 
-/// Points that are looked at where one stands for many.
-constexpr std::size_t kLooks = 25;
-/// [half diagonals] Half of the points are farther than the first from the box of the design: the start is far. Half of
-/// them are farther than the second from the surface: some points are fitted from there first, to see whether they
-/// come to lie.
-constexpr double kFarFromBox = 0.5, kFarFromSurface = 0.02;
+/// Where fewer points than this count they lie well at many poses: what stands against them is that they are few. Of
+/// more points than the second all should.
+constexpr std::uint32_t kLeastWeighed = 8, kFew = 20;
 /// A pose is far better where its typical distance is this share of the other's.
 constexpr double kFarBetter = 0.5, kMirroredFarBetter = 0.4;
 /// Searched poses that bring the points less far apart are the same [half diagonals].
 constexpr double kSamePose = 0.02;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Half of the points are farther from the box of the control points than this at the pose [mm].
-double distance_from_box(const DesignImage& design, const std::vector<ProbePoint>& points, const Pose& pose) {
-  const Vec3 low(design.header().box_min), high(design.header().box_max);
-  std::vector<double> distances;
-  for (const ProbePoint& point : points) {
-    const Vec3 at = apply(pose, Vec3(point.position.data()));
-    distances.push_back((at - at.cwiseMax(low).cwiseMin(high)).norm());
-  }
-  return median(distances);
-}
-
-double distance_from_surface(const Surface& surface, const std::vector<ProbePoint>& points, const Pose& pose,
-                             double probe_radius_mm) {
-  std::vector<double> distances;
-  for (const ProbePoint& point : points) {
-    const ProjectionQuery query{apply(pose, Vec3(point.position.data()))};
-    const double distance = std::sqrt(project_global(surface, query, nullptr).nearest.distance_squared());
-    distances.push_back(std::abs(distance - probe_radius_mm));
-  }
-  return median(distances);
-}
+bool are_too_few(const PoseFit& fitted) { return fitted.counted < kLeastWeighed && fitted.points < kFew; }
 
 std::vector<ProbePoint> mirrored(std::vector<ProbePoint> points) {
   for (ProbePoint& point : points) {
@@ -84,10 +55,9 @@ const std::vector<PoseFit>& WorldChecks::found_poses() {
 bool WorldChecks::start_is_far() const {
   const Surface surface(design_);
   const LocalizerConfig& config = plan_.localizer;
-  if (distance_from_box(design_, points_, config.start) > kFarFromBox * surface.half_diagonal()) return true;
-  const std::vector<ProbePoint> looks = some_of(points_, kLooks);
-  const double off = distance_from_surface(surface, looks, config.start, config.probe_radius_mm);
-  if (off <= kFarFromSurface * surface.half_diagonal() && !much_smaller_than_design(surface, points_)) return false;
+  if (is_outside_box(surface, points_, config.start)) return true;
+  const bool near = !is_far_from(surface, points_, config.start, config.probe_radius_mm);
+  if (near && !much_smaller_than_design(surface, points_)) return false;
   const PoseFit scouted = fit_candidate(design_, config, some_of(points_, kSearchPoints), config.start);
   return !is_credible(scouted, scale_mm_);
 }
@@ -101,7 +71,10 @@ StartChoice WorldChecks::choose_start() {
     return choice;
   }
   if (plan_.search_start) return searched_start();
-  if (!start_is_far()) return choice;
+  if (!start_is_far()) {
+    check_directions(choice);
+    return choice;
+  }
   if (plan_.localizer.locked == 0) return searched_start();
   choice.hopeless = true;
   choice.findings.doubts.push_back(
@@ -109,6 +82,13 @@ StartChoice WorldChecks::choose_start() {
        "the points do not come to lie on the design from this start, and locked degrees of freedom "
        "keep it; give a nearer start, or leave --lock out"});
   return choice;
+}
+
+void WorldChecks::check_directions(StartChoice& choice) const {
+  const std::string text = wrong_directions(design_, plan_, points_, choice.pose);
+  if (text.empty()) return;
+  choice.averted = true;
+  choice.findings.doubts.push_back({ReasonCode::mirrored, text});
 }
 
 /// "30 degrees and 104 mm": from the start pose, of the middle of the points.
@@ -138,10 +118,12 @@ StartChoice WorldChecks::searched_start() {
   choice.findings.notes.push_back(
       plan_.search_start ? std::string("Start: found by search from the points alone")
                          : fmt::format("Start: it was {} off; the pose was found by search", moved_by(choice.pose)));
+  check_directions(choice);
   return choice;
 }
 
 std::optional<StartChoice> WorldChecks::better_start(const PoseFit& fitted) {
+  if (are_too_few(fitted)) return std::nullopt;
   if (!is_suspect(fitted, scale_mm_) || plan_.localizer.locked != 0) return std::nullopt;
   const std::vector<PoseFit>& poses = found_poses();
   if (poses.empty() || !is_credible(poses.front(), scale_mm_)) return std::nullopt;
@@ -218,9 +200,8 @@ void WorldChecks::tell_rivals(const PoseFit& fitted, bool searched, Findings& fi
 
 Findings WorldChecks::findings_of(const PoseFit& fitted, bool searched) {
   Findings findings;
-  if (const std::string text = wrong_directions(design_, plan_, points_, fitted.pose); !text.empty()) {
-    findings.doubts.push_back({ReasonCode::mirrored, text});
-  } else if (!is_credible(fitted, scale_mm_)) {
+  if (are_too_few(fitted)) return findings;
+  if (!is_credible(fitted, scale_mm_)) {
     const std::vector<PoseFit>& poses = found_poses();
     findings.doubts.push_back(
         explain_misfit(poses.empty() ? fitted.typical_mm : std::min(fitted.typical_mm, poses.front().typical_mm)));
@@ -232,8 +213,10 @@ Findings WorldChecks::findings_of(const PoseFit& fitted, bool searched) {
 
 Findings doubts_about(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
                       const FitReport& report, const std::vector<Verdict>& verdicts) {
-  WorldChecks checks(design, plan, points);
   const PoseFit fitted = measure_fit(plan.localizer, points, report, verdicts);
+  if (const std::string text = wrong_directions(design, plan, points, fitted.pose); !text.empty())
+    return {{{ReasonCode::mirrored, text}}, {}};
+  WorldChecks checks(design, plan, points);
   if (const std::optional<StartChoice> better = checks.better_start(fitted)) {
     return {
         {{ReasonCode::far_start,

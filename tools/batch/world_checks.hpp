@@ -21,6 +21,7 @@ struct StartChoice {
   Pose pose;
   bool searched = false;  ///< found from the points, and not the one that was given
   bool hopeless = false;  ///< no pose was found at which the points fit: there is nothing to start from
+  bool averted = false;   ///< the probing directions run out of the material: a fit cannot use them
   Findings findings;
 };
 
@@ -44,6 +45,7 @@ class WorldChecks {
 
  private:
   [[nodiscard]] bool start_is_far() const;
+  void check_directions(StartChoice& choice) const;
   [[nodiscard]] StartChoice searched_start();
   [[nodiscard]] const std::vector<PoseFit>& found_poses();
   [[nodiscard]] const PoseSearch& search();

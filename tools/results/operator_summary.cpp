@@ -190,7 +190,7 @@ std::string operator_summary(const Result& result) {
   text += fit_lines(result) + optimum_line(result) + fit_remarks(result);
   if (result.details->unproven > 0)
     text += fmt::format("{} feet could not be proven the nearest: do not rely on this fit\n", result.details->unproven);
-  return text + point_lines(result) + tolerance_lines(result);
+  return text + point_lines(result) + (result.doubts.empty() ? tolerance_lines(result) : std::string());
 }
 
 }  // namespace bladefit

@@ -139,6 +139,9 @@ Votes collect_votes(const std::vector<Facet>& facets) {
   return votes;
 }
 
+/// Whether patches have the material on different sides.
+bool contradict(const Votes& votes) { return std::min(votes.outward, votes.inward) >= kContradiction * votes.area; }
+
 /// The side where nearly all of the votes agree.
 std::optional<OutwardSide> agreed_side(const Votes& votes) {
   const double majority = std::max(votes.outward, votes.inward);
@@ -162,7 +165,7 @@ OutwardSide find_outward_side(const std::vector<NurbsSurface>& surfaces, const s
   }
   const Votes votes = collect_votes(facets);
   if (const std::optional<OutwardSide> side = agreed_side(votes)) return *side;
-  if (std::min(votes.outward, votes.inward) >= kContradiction * votes.area) {
+  if (contradict(votes)) {
     throw ToolError(
         fmt::format("{}: the patches' normals do not all point to the same side of the material; reverse "
                     "the wrong ones in the CAD system",
