@@ -106,9 +106,10 @@ constexpr std::array kOptions{
     FitOption{"loss_scale", length_above_0(&S::loss_scale),
               [](const S& s, double mm, C& c) { c.loss_scale_mm = *s.loss_scale * mm; },
               "standard deviation of good points, in units (default: 1.4826 times the median distance)", "0.05"},
-    FitOption{"start", PathOption{&S::start}, nullptr,
+    FitOption{"start", PathOption{&S::start, kSearchStart}, nullptr,
               "CSV file of at least 3 point pairs, columns [name,]x,y,z,design_x,design_y,design_z in units: the pose "
-              "that brings them together is where the fit starts",
+              "that brings them together is where the fit starts; or the word search: localize finds the start from "
+              "the points alone",
               "\"pairs.csv\""},
     FitOption{"ignore_approach", FlagOption{&S::ignore_approach},
               [](const S& s, double, C& c) { c.use_approach = !*s.ignore_approach; },
@@ -134,6 +135,12 @@ constexpr std::array kOptions{
               [](const S& s, double, C& c) { c.tolerance.least_points = static_cast<std::uint32_t>(*s.least_points); },
               "judged points that each leading-edge zone needs; with fewer the blade is not decided (default 1)", "1",
               false},
+    FitOption{"axis", AxisOption{&S::axis}, nullptr,
+              "axis of the shaft in the design, from which radii are measured: x (default), y, z, or x0,y0,z0,i,j,k, a "
+              "point of it in units and its direction",
+              "\"x\""},
+    FitOption{"tip_radius", length_above_0(&S::tip_radius), nullptr,
+              "R of r/R, in units (default: the greatest distance of the design's surface from the axis)", "152.4"},
 };
 
 /// A comment of whole words, at most kWidth columns wide where they allow it.
@@ -204,6 +211,13 @@ Failure set(const MpeOption& option, const std::string& given, FitSettings& sett
   ProbeError error;
   if (const Failure failure = parse_mpe(given, error)) return failure;
   settings.*option.value = error;
+  return {};
+}
+
+Failure set(const AxisOption& option, const std::string& given, FitSettings& settings) {
+  ShaftAxis axis;
+  if (const Failure error = parse_axis(given, axis)) return error;
+  settings.*option.value = axis;
   return {};
 }
 

@@ -58,10 +58,17 @@ struct MpeOption {
   std::optional<ProbeError> FitSettings::*value;
 };
 
-/// A file. In a TOML file a relative path is taken from the folder of that file.
+/// As parse_axis() reads it.
+struct AxisOption {
+  using Given = std::string;
+  std::optional<ShaftAxis> FitSettings::*value;
+};
+
+/// A file, or a word that stands for none. In a TOML file a relative path is taken from the folder of that file.
 struct PathOption {
   using Given = std::string;
   std::optional<std::string> FitSettings::*value;
+  std::string_view word = {};
 };
 
 /// Given or not on the command line, true or false in a file.
@@ -70,15 +77,17 @@ struct FlagOption {
   std::optional<bool> FitSettings::*value;
 };
 
-using FitOptionKind = std::variant<NumberOption, ChoiceOption<FitMode>, ChoiceOption<OutwardOption>,
-                                   ChoiceOption<DesignUnit>, ChoiceOption<RegionPolicy>, ChoiceOption<EdgePolicy>,
-                                   ChoiceOption<Loss>, ChoiceOption<DecisionRule>, MpeOption, BoxesOption, WindowOption, LocksOption, PathOption, FlagOption>;
+using FitOptionKind =
+    std::variant<NumberOption, ChoiceOption<FitMode>, ChoiceOption<OutwardOption>, ChoiceOption<DesignUnit>,
+                 ChoiceOption<RegionPolicy>, ChoiceOption<EdgePolicy>, ChoiceOption<Loss>, ChoiceOption<DecisionRule>,
+                 MpeOption, BoxesOption, WindowOption, LocksOption, AxisOption, PathOption, FlagOption>;
 
 [[nodiscard]] Failure set(const NumberOption& option, double given, FitSettings& settings);
 [[nodiscard]] Failure set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings);
 [[nodiscard]] Failure set(const WindowOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const LocksOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const MpeOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] Failure set(const AxisOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const PathOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const FlagOption& option, bool given, FitSettings& settings);
 

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/fit_text.hpp"
@@ -34,7 +35,9 @@ struct FitSettings {
   std::optional<std::uint8_t> lock;  ///< bits of motion_lock.hpp, not all of them
   std::optional<Loss> loss;
   std::optional<double> loss_scale;  ///< standard deviation of good points
-  std::optional<std::string> start;  ///< file of point pairs that give the start pose
+  std::optional<std::string> start;  ///< file of point pairs that give the start pose, or kSearchStart
+  std::optional<ShaftAxis> axis;     ///< its point in `units`
+  std::optional<double> tip_radius;  ///< R of r/R
   std::optional<bool> ignore_approach;
   std::optional<DecisionRule> decision;
   std::optional<double> probe_uncertainty;  ///< standard uncertainty of a distance that comes from the probe
@@ -42,6 +45,9 @@ struct FitSettings {
   std::optional<double> coverage_factor;
   std::optional<double> least_points;  ///< judged points that each leading-edge zone needs; a whole number
 };
+
+/// The word in place of a file of point pairs: the start pose is searched.
+inline constexpr std::string_view kSearchStart = "search";
 
 /// Reads the table [fit] of a TOML file such as config/fit.toml into `settings`. Relative paths are those of the file's
 /// folder, made ready to be used from the working directory.

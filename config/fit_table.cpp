@@ -13,7 +13,8 @@ void read_option(TableReader& table, std::string_view key, const Kind& kind, Fit
   if (!table.has(key)) return;
   typename Kind::Given given{};
   if constexpr (std::is_same_v<Kind, PathOption>) {
-    table.read_path(key, given);
+    table.read(key, given);
+    if (table.good() && (kind.word.empty() || given != kind.word)) table.read_path(key, given);
   } else {
     table.read(key, given);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "drivers/text/text_number.hpp"
@@ -95,6 +96,31 @@ Failure parse_mpe(std::string_view text, ProbeError& error) {
 Failure parse_window(std::string_view text, ParameterWindow& window) {
   if (parse_interval(text, window.low, window.high)) return {};
   return bad_input(fmt::format("'{}' is no window; write 0.05:0.95, limits from 0 to 1, the lower first", text));
+}
+
+Failure parse_axis(std::string_view text, ShaftAxis& axis) {
+  constexpr std::string_view kNames = "xyz";
+  if (text.size() == 1 && kNames.find(text[0]) != std::string_view::npos) {
+    axis = {Vec3::Zero(), Vec3::Unit(static_cast<Eigen::Index>(kNames.find(text[0])))};
+    return {};
+  }
+  const Failure wrong = bad_input(fmt::format(
+      "'{}' is no axis; write x, y, z, or six numbers x0,y0,z0,i,j,k: a point of it and its direction", text));
+  Vec6 numbers;
+  std::string_view rest = text;
+  for (int k = 0; k < 6; ++k) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (k == 5)) return wrong;
+    const std::optional<double> number = parse_finite(trimmed(rest.substr(0, comma)));
+    if (!number) return wrong;
+    numbers[k] = *number;
+    rest.remove_prefix(k == 5 ? rest.size() : comma + 1);
+  }
+  const double length = numbers.tail<3>().norm();
+  if (!(length > 0.0) || !std::isfinite(length))
+    return bad_input(fmt::format("'{}' has no direction; i,j,k must not all be 0", text));
+  axis = {numbers.head<3>(), numbers.tail<3>() / length};
+  return {};
 }
 
 }  // namespace bladefit

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/inspection/shaft_axis.hpp"
 #include "core/inspection/tolerance_map.hpp"
 #include "drivers/source/failure.hpp"
 
@@ -35,5 +36,9 @@ inline constexpr std::array<std::string_view, 6> kDegreesOfFreedom = {"tx", "ty"
 
 /// A window `a:b` as on the command line. Error: a line that names the text and the fix.
 [[nodiscard]] Failure parse_window(std::string_view text, ParameterWindow& window);
+
+/// A shaft axis as on the command line: `x`, `y`, `z`, or `x0,y0,z0,i,j,k`, a point of it and its direction of any
+/// length. The point stays in the units in which it was given. Error: a line that names the text and the fix.
+[[nodiscard]] Failure parse_axis(std::string_view text, ShaftAxis& axis);
 
 }  // namespace bladefit

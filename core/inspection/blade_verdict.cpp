@@ -7,7 +7,9 @@ namespace {
 
 Reasons reasons_of(const BladeEvidence& e) {
   Reasons reasons = e.doubts;
-  reasons.add_if(!e.converged && !e.infeasible && e.determined >= e.free, Reason::not_converged);
+  // A fit that is doubted elsewhere has told why already.
+  const bool at_rest = e.converged || e.infeasible || e.doubts.any();
+  reasons.add_if(!at_rest && e.determined >= e.free, Reason::not_converged);
   reasons.add_if(e.determined < e.free, Reason::underdetermined);
   reasons.add_if(e.unproven > 0, Reason::unproven);
   reasons.add_if(e.lost > 0, Reason::points_lost);

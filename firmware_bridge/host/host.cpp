@@ -132,7 +132,7 @@ Failure Host::start() {
   const AcquisitionSettings acquisition{identity, settings_.end_when_finished, settings_.idle};
   running.acquisition.emplace(acquisition, std::move(recorded), source_, running.journal, shared_);
   running.fit.emplace(*running.localizer, settings_.localizer.capacity, settings_.path_refine_points, shared_);
-  running.publication.emplace(settings_.localizer.tolerance, running.server, shared_);
+  running.publication.emplace(settings_.localizer.tolerance, settings_.axis, running.server, shared_);
   running.threads.emplace_back([&running] { running.publication->run(); });
   running.threads.emplace_back([&running] { running.fit->run(); });
   running.threads.emplace_back([&running, this] { write_journal(running.journal, shared_); });

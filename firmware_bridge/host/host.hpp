@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "core/inspection/shaft_axis.hpp"
 #include "core/localizer.hpp"
 #include "drivers/source/probe_source.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
@@ -16,6 +17,7 @@ struct HostSettings {
   /// Made when it is missing, and removed again when nothing was put into it. A session in it is resumed.
   std::string session_directory;
   PanelServerSettings panel;
+  ShaftAxis axis;  ///< from which the panel's radii are
   /// Stored points projected again when a path ends: bounds how long that makes the next point wait.
   std::uint32_t path_refine_points = 2048;
   bool end_when_finished = false;  ///< end when the device says that its program is finished

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/cpu_clock.hpp"
+#include "tools/batch/far_points.hpp"
 #include "tools/batch/result_record.hpp"
 #include "tools/batch/whole_fit.hpp"
+#include "tools/batch/world_checks.hpp"
 
 namespace bladefit {
 namespace {
@@ -21,16 +25,19 @@ std::vector<double> distances_of(const std::vector<Verdict>& verdicts) {
   return distances;
 }
 
-/// Oriented distances of the points as measured, at C = I, t = 0 [mm], by searches.
+/// Oriented distances of the points as measured, at C = I, t = 0 [mm], by searches. Where the points as measured are
+/// far from the design, feet are the nearest whatever the probing directions: hardly one would face the probe there,
+/// and to find that out takes milliseconds a point.
 std::vector<double> distances_as_measured(const DesignImage& design, const LocalizerConfig& config,
                                           const std::vector<ProbePoint>& points) {
   const Surface surface(design);
+  const bool directed = config.use_approach && !is_far_from(surface, points, Pose(), config.probe_radius_mm);
   std::vector<double> distances;
   distances.reserve(points.size());
   for (const ProbePoint& point : points) {
     ProjectionQuery query;
     query.point = Vec3(point.position.data());
-    if (config.use_approach) query.approach = Vec3(point.approach.data());
+    if (directed) query.approach = Vec3(point.approach.data());
     const Projection nearest = project_global(surface, query, nullptr).nearest;
     distances.push_back(foot_of(surface, nearest, config.probe_radius_mm).distance);
   }
@@ -79,27 +86,97 @@ void prove_starts(const DesignImage& design, const FitPlan& plan, const std::vec
   batch.proof.cpu_s = thread_cpu_s() - began;
 }
 
-}  // namespace
-
-BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                    const std::string& name) {
+/// A fit from the start of its plan, told as it is.
+struct FittedPoints {
   BatchFit batch;
+  PoseFit quality;
+};
+
+FittedPoints fitted_from_start(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                               const std::string& name) {
+  FittedPoints out;
   const double began = thread_cpu_s();
   StagedPoints fit = staged(design, plan, points, plan.starts, name);
   refine_all(*fit.localizer, points.size());
-  batch.fit = {thread_cpu_s() - began, fit.searches + fit.localizer->fit().searches};
+  out.batch.fit = {thread_cpu_s() - began, fit.searches + fit.localizer->fit().searches};
   const bool tracked = plan.starts == FootStarts::neighbour || plan.starts == FootStarts::curves;
-  if (tracked) prove_starts(design, plan, points, name, fit, batch);
+  if (tracked) prove_starts(design, plan, points, name, fit, out.batch);
   const bool as_measured = is_identity(plan.localizer.start);
-  batch.result = result_record(
+  const std::vector<Verdict> verdicts = verdicts_of(*fit.localizer, points);
+  out.quality = measure_fit(plan.localizer, points, fit.localizer->fit(), verdicts);
+  out.batch.result = result_record(
       {.design = design,
        .plan = plan,
        .points = points,
        .report = fit.localizer->fit(),
-       .verdicts = verdicts_of(*fit.localizer, points),
-       .before = as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points),
-       .stream = {}});
+       .verdicts = verdicts,
+       .before = as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points)});
+  return out;
+}
+
+/// What is told of points that have no pose: nothing but their numbers.
+BatchFit without_fit(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Verdict> verdicts;
+  for (const ProbePoint& point : points) {
+    Verdict verdict;
+    verdict.sequence = point.sequence;
+    verdict.foot.distance = kUnknown;
+    verdicts.push_back(verdict);
+  }
+  FitReport report;
+  report.status = FitStatus::tracking;
+  report.determined = report.free;
+  report.pose = plan.localizer.start;
+  BatchFit batch;
+  batch.result = result_record({.design = design,
+                                .plan = plan,
+                                .points = points,
+                                .report = report,
+                                .verdicts = verdicts,
+                                .before = std::vector<double>(points.size(), kUnknown)});
+  return batch;
+}
+
+void add_findings(const Findings& findings, Result& result) {
+  std::vector<VerdictReason>& reasons = result.verdict.reasons;
+  reasons.insert(reasons.end(), findings.doubts.begin(), findings.doubts.end());
+  result.notes.insert(result.notes.end(), findings.notes.begin(), findings.notes.end());
+}
+
+/// The fit from the start that the checks chose, and again from a better one where it went astray.
+BatchFit checked_fit(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                     const std::string& name) {
+  WorldChecks checks(design, plan, points);
+  StartChoice choice = checks.choose_start();
+  if (choice.hopeless) {
+    BatchFit batch = without_fit(design, plan, points);
+    add_findings(choice.findings, batch.result);
+    return batch;
+  }
+  FitPlan used = plan;
+  used.localizer.start = choice.pose;
+  used.localizer.use_approach = plan.localizer.use_approach && !choice.averted;
+  FittedPoints fitted = fitted_from_start(design, used, points, name);
+  if (!choice.searched) {
+    if (const std::optional<StartChoice> better = checks.better_start(fitted.quality)) {
+      choice = *better;
+      used.localizer.start = choice.pose;
+      fitted = fitted_from_start(design, used, points, name);
+    }
+  }
+  add_findings(choice.findings, fitted.batch.result);
+  add_findings(checks.findings_of(fitted.quality, choice.searched), fitted.batch.result);
+  return fitted.batch;
+}
+
+}  // namespace
+
+BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
+                    const std::string& name) {
+  BatchFit batch = checked_fit(design, plan, points, name);
   batch.result.name = name;
+  judge(batch.result, plan.localizer, {});
   return batch;
 }
 
@@ -111,9 +188,10 @@ Result result_of(const DesignImage& design, const FitPlan& plan, const std::vect
                                  .points = points,
                                  .report = report,
                                  .verdicts = verdicts,
-                                 .before = distances_as_measured(design, plan.localizer, points),
-                                 .stream = stream});
+                                 .before = distances_as_measured(design, plan.localizer, points)});
   result.name = name;
+  add_findings(doubts_about(design, plan, points, report, verdicts), result);
+  judge(result, plan.localizer, stream);
   return result;
 }
 

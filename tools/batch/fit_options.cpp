@@ -11,6 +11,8 @@
 
 #include "core/localizer/check_config.hpp"
 #include "drivers/text/units.hpp"
+#include "tools/batch/edge_zone.hpp"
+#include "tools/batch/side_check.hpp"
 #include "tools/batch/start_pairs.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 
@@ -108,11 +110,35 @@ std::string explained(const ConfigFault& fault, const LocalizerConfig& fit, std:
 }
 
 void plan_start(const std::string& path, FitPlan& plan) {
+  if (path == kSearchStart) {
+    if (plan.localizer.locked != 0)
+      throw ToolError(
+          "--start search: --lock keeps degrees of freedom of a start that is not known; leave one of them out");
+    plan.search_start = true;
+    return;
+  }
   const StartPairs pairs = read_start_pairs(path, plan.mm_per_unit);
   plan.localizer.start = pairs.pose;
   plan.note += fmt::format("Start: {} point pairs, rms {:.4g} {}, largest {:.4g} {} at {}\n", pairs.count,
                            pairs.rms_mm / plan.mm_per_unit, plan.units, pairs.worst_mm / plan.mm_per_unit, plan.units,
                            pairs.worst_name);
+}
+
+/// The axis in mm, and R.
+void plan_radii(const FitSettings& settings, FitPlan& plan) {
+  if (settings.axis) plan.axis = {settings.axis->point * plan.mm_per_unit, settings.axis->direction};
+  if (settings.tip_radius) plan.tip_radius_mm = *settings.tip_radius * plan.mm_per_unit;
+}
+
+/// A ball that is as large as the blade touches it nowhere in particular.
+void check_probe(const FitPlan& plan, const DesignImage& design) {
+  const Vec3 box = Vec3(design.header().box_max) - Vec3(design.header().box_min);
+  const double radius = plan.localizer.probe_radius_mm, most = 0.5 * box.maxCoeff();
+  if (radius <= most) return;
+  throw ToolError(
+      fmt::format("--probe-radius: a ball of radius {:g} {} is larger than the blade, whose longest side is "
+                  "{:.4g} {}; correct the radius or its unit",
+                  radius / plan.mm_per_unit, plan.units, 2.0 * most / plan.mm_per_unit, plan.units));
 }
 
 }  // namespace
@@ -131,6 +157,11 @@ std::vector<std::string> names_of_locked(std::uint8_t locked) {
   return names;
 }
 
+std::string start_file_of(const FitSettings& settings) {
+  const std::string start = settings.start.value_or("");
+  return start == kSearchStart ? "" : start;
+}
+
 OutwardOption outward_of(const FitSettings& settings) { return settings.outward.value_or(OutwardOption::automatic); }
 
 FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
@@ -147,6 +178,10 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   const std::size_t patches = design.patches().size();
   if (const ConfigFault fault = check_config(plan.localizer, patches))
     throw ToolError(explained(fault, plan.localizer, patches));
+  plan_radii(settings, plan);
+  check_probe(plan, design);
+  check_outward(design, outward_of(settings));
+  for (std::uint32_t k = 0; k < map.box_count; ++k) plan.note += zone_warning(Surface(design), map.boxes.at(k));
   return plan;
 }
 

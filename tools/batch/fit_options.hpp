@@ -4,6 +4,7 @@
 
 #include "config/fit_option.hpp"
 #include "core/geometry/surface/design_image.hpp"
+#include "core/inspection/shaft_axis.hpp"
 #include "core/localizer.hpp"
 #include "tools/batch/first_feet.hpp"
 #include "tools/design/load_design.hpp"
@@ -25,11 +26,17 @@ struct FitPlan {
   double mm_per_unit = 1.0;
   LocalizerConfig localizer;
   FootStarts starts = FootStarts::searched;  ///< of a batch fit
+  ShaftAxis axis;                            ///< of the design [mm]
+  double tip_radius_mm = 0;                  ///< R of r/R; 0 = the greatest distance of the surface from the axis
+  bool search_start = false;                 ///< the start pose is to be searched from the points
   std::string note;                          ///< lines the user should read; empty = none
 };
 
 /// Names of the degrees of freedom in a set of bits of motion_lock.hpp: tx, ry ...
 [[nodiscard]] std::vector<std::string> names_of_locked(std::uint8_t locked);
+
+/// The file of start pairs; empty = none is given.
+[[nodiscard]] std::string start_file_of(const FitSettings& settings);
 
 /// Where the design's outward side comes from.
 [[nodiscard]] OutwardOption outward_of(const FitSettings& settings);

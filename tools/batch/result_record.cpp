@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/batch/robust_check.hpp"
+#include "tools/batch/tip_radius.hpp"
 #include "tools/results/words.hpp"
 
 namespace bladefit {
@@ -39,7 +40,7 @@ void sum_up(const FinishedFit& fit, Result& result) {
   Summing all, leading_edge, rest;
   for (std::size_t i = 0; i < fit.verdicts.size(); ++i) {
     const Verdict& after = fit.verdicts[i];
-    if (!after.fitted) continue;
+    if (!after.fitted || std::isnan(after.foot.distance)) continue;
     all.add(fit.before[i], after.foot.distance);
     (after.region == Region::leading_edge ? leading_edge : rest).add(fit.before[i], after.foot.distance);
   }
@@ -47,15 +48,6 @@ void sum_up(const FinishedFit& fit, Result& result) {
   result.all.max_before = all.max_before();
   leading_edge.write(result.leading_edge);
   rest.write(result.rest);
-}
-
-/// Largest radius about the shaft axis x of the design's control points [mm].
-double tip_radius(const DesignImage& design) {
-  double largest = 0.0;
-  const auto c = design.coefficients();
-  for (std::size_t k = 0; k + 3 < c.size(); k += 4)
-    largest = std::max(largest, std::hypot(c[k + 1], c[k + 2]) / c[k + 3]);
-  return largest;
 }
 
 ResultPoint point_of(const ProbePoint& point, const Verdict& verdict, double before) {
@@ -97,8 +89,7 @@ FitDetails details_of(const FinishedFit& fit) {
           .determined = fit.report.determined,
           .free = fit.report.free,
           .unproven = fit.report.unproven,
-          .stationarity = fit.report.stationarity,
-          .tip_radius = tip_radius(fit.design)};
+          .stationarity = fit.report.stationarity};
 }
 
 }  // namespace
@@ -123,6 +114,9 @@ Result result_record(const FinishedFit& fit) {
   result.certificate = report.certificate;
   result.further_starts = report.further_starts;
   result.same_optimum = report.same_optimum;
+  result.axis = fit.plan.axis;
+  const double given = fit.plan.tip_radius_mm;
+  result.tip_radius = given > 0.0 ? given : tip_radius_of(Surface(fit.design), fit.plan.axis);
   result.locked = names_of_locked(config.locked);
   if (config.loss != Loss::none) {
     result.loss = LossUsed{std::string(word_of(config.loss)), report.loss_scale_mm};
@@ -135,7 +129,6 @@ Result result_record(const FinishedFit& fit) {
     result.points.push_back(point_of(fit.points[i], fit.verdicts[i], fit.before[i]));
   }
   result.details = details_of(fit);
-  judge(result, config, fit.stream);
   return result;
 }
 

@@ -3,7 +3,6 @@
 
 #include "core/localizer.hpp"
 #include "tools/batch/fit_options.hpp"
-#include "tools/results/judgement.hpp"
 #include "tools/results/result.hpp"
 
 namespace bladefit {
@@ -16,7 +15,6 @@ struct FinishedFit {
   FitReport report;
   std::vector<Verdict> verdicts;  ///< final ones, rising sequence
   std::vector<double> before;     ///< distances at C = I, t = 0 [mm]
-  StreamEvidence stream;          ///< of a batch: nothing lost
 };
 
 /// The record of the fit: sums over its points, outliers, and what the mode found. Its name is left empty.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -19,6 +20,11 @@ constexpr std::array<std::string_view, 7> kColumns = {"x", "y", "z", "design_x",
 constexpr std::size_t kNameColumn = 6;
 constexpr std::string_view kMend = "the first line must name the columns: [name,]x,y,z,design_x,design_y,design_z";
 constexpr CsvFormat kFormat{kColumns, kNameColumn, 0, kMend};
+/// Pairs whose rests are this share of their spread, in root mean squares, do not belong together: marks are picked to
+/// some hundredths of a blade.
+constexpr double kWorstRest = 0.05;
+/// Pairs that a message lists.
+constexpr std::size_t kListed = 6;
 /// Points whose second extent is below this share of the first stand in one line.
 constexpr double kInLine = 1e-3;
 
@@ -65,6 +71,32 @@ void check_spread(const Points& points, const char* what, const std::string& pat
                   path, what));
 }
 
+/// What remains between each measured point and its place.
+std::vector<double> rests_of(const Pose& pose, const Points& measured, const Points& design) {
+  std::vector<double> rests;
+  for (Eigen::Index k = 0; k < measured.cols(); ++k)
+    rests.push_back((apply(pose, measured.col(k)) - Vec3(design.col(k))).norm());
+  return rests;
+}
+
+double spread_of(const Points& points) {
+  const Points centred = points.colwise() - points.rowwise().mean();
+  return centred.norm() / std::sqrt(static_cast<double>(points.cols()));
+}
+
+/// Pairs that no rigid motion brings together are no start.
+void check_rests(const std::vector<Pair>& pairs, const std::vector<double>& rests, double rms_mm, double spread_mm,
+                 double mm_per_unit, const std::string& path) {
+  if (rms_mm <= kWorstRest * spread_mm) return;
+  std::string list;
+  for (std::size_t k = 0; k < std::min(pairs.size(), kListed); ++k)
+    list += fmt::format("{}{} {:.4g}", k == 0 ? "" : ", ", pairs[k].name, rests[k] / mm_per_unit);
+  throw ToolError(fmt::format(
+      "{}: the pairs do not fit each other: no rigid motion brings them nearer than rms {:.4g} (their spread is "
+      "{:.4g}); what remains: {}{}; check which point belongs to which, and units and signs",
+      path, rms_mm / mm_per_unit, spread_mm / mm_per_unit, list, pairs.size() > kListed ? " ..." : ""));
+}
+
 }  // namespace
 
 StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
@@ -87,16 +119,14 @@ StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
   // Through its Euler angles the rotation is orthogonal to rounding.
   out.pose.rotation = rotation_of(euler_angles(Mat3(motion.topLeftCorner<3, 3>())));
   out.pose.translation = motion.topRightCorner<3, 1>();
+  const std::vector<double> rests = rests_of(out.pose, measured, design);
+  const auto worst = std::max_element(rests.begin(), rests.end());
+  out.worst_mm = *worst;
+  out.worst_name = pairs[static_cast<std::size_t>(worst - rests.begin())].name;
   double square = 0.0;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    const double rest = (apply(out.pose, measured.col(column)) - Vec3(design.col(column))).norm();
-    square += rest * rest;
-    if (rest < out.worst_mm) continue;
-    out.worst_mm = rest;
-    out.worst_name = pairs[k].name;
-  }
+  for (const double rest : rests) square += rest * rest;
   out.rms_mm = std::sqrt(square / static_cast<double>(pairs.size()));
+  check_rests(pairs, rests, out.rms_mm, spread_of(design), mm_per_unit, path);
   return out;
 }
 

@@ -15,7 +15,8 @@ struct StartPairs {
 
 /// Reads a CSV file of pairs: a line of column names [name,]x,y,z,design_x,design_y,design_z in any order, then a pair
 /// a line; lengths are multiplied by `mm_per_unit`. The pose follows in closed form (Umeyama 1991, without a scale).
-/// Throws ToolError (bad_input) that names file, line or column and the fix: fewer than 3 pairs, pairs in one line.
+/// Throws ToolError (bad_input) that names file, line or column and the fix: fewer than 3 pairs, pairs in one line,
+/// pairs that do not fit each other.
 [[nodiscard]] StartPairs read_start_pairs(const std::string& path, double mm_per_unit);
 
 }  // namespace bladefit

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "tools/batch/first_feet.hpp"
-#include "tools/batch/owned_localizer.hpp"
+#include "tools/search/owned_localizer.hpp"
 
 namespace bladefit {
 

@@ -78,7 +78,7 @@ void check_result_file(const LocalizeFlags& flags, const FitSettings& settings) 
   refuse_overwriting(flags.json, "points", flags.points);
   refuse_overwriting(flags.json, "subset", flags.subset);
   refuse_overwriting(flags.json, "settings", flags.config);
-  refuse_overwriting(flags.json, "start pairs", settings.start.value_or(""));
+  refuse_overwriting(flags.json, "start pairs", start_file_of(settings));
 }
 
 int localize(const LocalizeFlags& flags) {

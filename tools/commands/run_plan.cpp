@@ -95,7 +95,7 @@ void check_outputs(const RunFlags& flags, const SessionSettings& session, const 
       {{"design", session.design.value_or("")},
        {"session file", flags.config},
        {"device file", session.device.value_or("")},
-       {"start pairs", session.fit.start.value_or("")},
+       {"start pairs", start_file_of(session.fit)},
        {"recording", replay != nullptr ? replay->file : ""}}};
   for (const auto& [what, input] : inputs) {
     refuse_overwriting(copy, what, input);
@@ -116,12 +116,17 @@ RunPlan plan_run(const RunFlags& flags) {
     throw ToolError(fmt::format("{}: {}", *session.design, status_text(status)));
   }
   plan.fit = plan_fit(session.fit, plan.image);
+  if (plan.fit.search_start) {
+    throw ToolError(
+        "--start search: only localize can search, once all points are there; give a file of pairs, or leave it out");
+  }
   if (session.capacity) plan.fit.localizer.capacity = *session.capacity;
   plan.source = plan_source(session, flags.session.fit.units, plan.fit.mm_per_unit);
   plan.json = flags.json;
   // The screen would mix with the result.
   plan.headless = session.headless.value_or(false) || plan.json == "-";
   plan.host.localizer = plan.fit.localizer;
+  plan.host.axis = plan.fit.axis;
   plan.host.session_directory = session.session.value_or(new_session_name());
   plan.host.panel = plan_panel(session.panel, flags.panel);
   plan.host.idle = idle_of(session);

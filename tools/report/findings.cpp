@@ -106,7 +106,7 @@ std::vector<const ResultPoint*> out_of_tolerance(const Result& result) {
 double radius_of(const Result& result, const ResultPoint& point) {
   const Vec3 measured(point.position[0], point.position[1], point.position[2]);
   const Vec3 moved_point = apply(result.pose, measured);
-  return std::hypot(moved_point[1], moved_point[2]);
+  return result.axis.radius_of(moved_point);
 }
 
 std::array<double, 6> standard_uncertainty_of(const Mat6& covariance) {

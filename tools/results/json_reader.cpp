@@ -150,6 +150,18 @@ Outliers read_outliers(const JsonField& json, double mm_per_unit) {
   return outliers;
 }
 
+ShaftAxis read_axis(const JsonField& json, double mm_per_unit) {
+  ShaftAxis axis;
+  const JsonField point = json["point"], direction = json["direction"];
+  point.need_size(3);
+  direction.need_size(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    axis.point[static_cast<Eigen::Index>(k)] = length_of(point.element(k), mm_per_unit);
+    axis.direction[static_cast<Eigen::Index>(k)] = direction.element(k).number();
+  }
+  return axis;
+}
+
 /// What only some modes have, and what the files of earlier versions lack.
 void read_optional(const JsonField& root, Result& result) {
   if (root.has("tolerance_factor")) result.tolerance_factor = length_of(root["tolerance_factor"], result.mm_per_unit);
@@ -158,6 +170,8 @@ void read_optional(const JsonField& root, Result& result) {
     result.further_starts = root["further_starts"]["count"].whole();
     result.same_optimum = root["further_starts"]["same"].whole();
   }
+  if (root.has("axis")) result.axis = read_axis(root["axis"], result.mm_per_unit);
+  if (root.has("tip_radius")) result.tip_radius = length_of(root["tip_radius"], result.mm_per_unit);
   if (root.has("locked")) {
     const JsonField locked = root["locked"];
     for (std::size_t k = 0; k < locked.size(); ++k) result.locked.push_back(locked.element(k).text());
@@ -170,6 +184,10 @@ void read_optional(const JsonField& root, Result& result) {
     const JsonField points = root["robust"]["judged_otherwise"];
     for (std::size_t k = 0; k < points.size(); ++k)
       result.judged_otherwise.push_back(points.element(k).whole() + 1);
+  }
+  if (root.has("notes")) {
+    const JsonField notes = root["notes"];
+    for (std::size_t k = 0; k < notes.size(); ++k) result.notes.push_back(notes.element(k).text());
   }
   if (root.has("aberrant")) result.outliers = read_outliers(root["aberrant"], result.mm_per_unit);
 }

@@ -68,6 +68,15 @@ Json certificate_json(const Certificate& certificate) {
   return {{"points", points}, {"multipliers", multipliers}, {"signs", signs}};
 }
 
+Json axis_json(const ShaftAxis& axis, double mm_per_unit) {
+  Json point = Json::array(), direction = Json::array();
+  for (int k = 0; k < 3; ++k) {
+    point.push_back(axis.point[k] / mm_per_unit);
+    direction.push_back(axis.direction[k]);
+  }
+  return {{"point", point}, {"direction", direction}};
+}
+
 Json outliers_json(const Outliers& outliers, double mm_per_unit) {
   if (!(outliers.limit > 0.0)) return nullptr;
   Json points = Json::array();
@@ -110,8 +119,8 @@ Json points_json(const std::vector<ResultPoint>& points, double mm_per_unit) {
                     {"v", point.v},
                     {"kind", word_of(point.kind)},
                     {"region", word_of(point.region)},
-                    {"distance", point.distance / mm_per_unit},
-                    {"distance_before", point.before / mm_per_unit},
+                    {"distance", length_or_null(point.distance, mm_per_unit)},
+                    {"distance_before", length_or_null(point.before, mm_per_unit)},
                     {"tolerance", length_or_null(point.tolerance, mm_per_unit)},
                     {"uncertainty", point.uncertainty / mm_per_unit},
                     {"expanded_uncertainty", point.expanded / mm_per_unit},
@@ -146,10 +155,13 @@ std::string result_json(const Result& result) {
   json["tolerance_factor"] = result.tolerance_factor > 0.0 ? Json(result.tolerance_factor / unit) : Json(nullptr);
   json["certificate"] = certificate_json(result.certificate);
   json["further_starts"] = {{"count", result.further_starts}, {"same", result.same_optimum}};
+  json["axis"] = axis_json(result.axis, unit);
+  json["tip_radius"] = result.tip_radius > 0.0 ? Json(result.tip_radius / unit) : Json(nullptr);
   json["locked"] = result.locked;
   json["loss"] = loss_json(result.loss, unit);
   json["aberrant"] = outliers_json(result.outliers, unit);  // the key that readers of result.json know
   json["robust"] = robust_json(result.judged_otherwise);
+  json["notes"] = result.notes;
   json["points"] = points_json(result.points, unit);
   return json.dump(1) + "\n";
 }

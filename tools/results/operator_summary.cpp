@@ -14,9 +14,6 @@ namespace {
 
 constexpr std::size_t kListed = 10;
 
-/// Distance from the shaft axis x of the design.
-double radius(const Vec3& point) { return std::hypot(point[1], point[2]); }
-
 /// Lengths of a result as the operator reads them.
 std::string length(const Result& result, double mm) {
   return fmt::format("{:.6g} {}", result.in_units(mm), result.units);
@@ -24,7 +21,7 @@ std::string length(const Result& result, double mm) {
 
 std::string where(const Result& result, const ResultPoint& point) {
   return fmt::format("{:+.3f} {} (unfitted {:+.3f}) at r/R {:.2f}", result.in_units(point.distance), result.units,
-                     result.in_units(point.before), radius(point.foot.value()) / result.details->tip_radius);
+                     result.in_units(point.before), result.axis.radius_of(point.foot.value()) / result.tip_radius);
 }
 
 std::string_view what_to_do(const ResultPoint& point) {
@@ -258,7 +255,9 @@ std::string tolerance_lines(const Result& result) {
 
 std::string operator_summary(const Result& result) {
   const bool decided = result.verdict.fit_decided();
-  std::string text = verdict_lines(result) + fit_lines(result);
+  std::string text = verdict_lines(result);
+  for (const std::string& note : result.notes) text += note + "\n";
+  text += fit_lines(result);
   if (decided) text += optimum_line(result);
   text += fit_remarks(result) + point_lines(result);
   return decided ? text + tolerance_lines(result) : text;

@@ -10,8 +10,10 @@
 #include "core/fit/pose.hpp"
 #include "core/inspection/blade_verdict.hpp"
 #include "core/inspection/decision.hpp"
+#include "core/inspection/shaft_axis.hpp"
 #include "firmware_bridge/host/fit/stream_losses.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
+#include "tools/results/verdict_reason.hpp"
 
 namespace bladefit {
 
@@ -65,12 +67,6 @@ struct LossUsed {
   double scale = 0;  ///< standard deviation of good points [mm]
 };
 
-/// Why a blade is not decided, or what is to be known beside a decision: what happened, and what to do.
-struct VerdictReason {
-  Reason code;
-  std::string text;
-};
-
 /// The one word on the blade, and what stands behind it.
 struct ResultVerdict {
   BladeState state = BladeState::not_decided;
@@ -94,7 +90,6 @@ struct FitDetails {
   std::uint32_t free = 6;        ///< degrees of freedom that are not locked
   std::uint32_t unproven = 0;    ///< feet that could not be proven the nearest
   double stationarity = 0;       ///< of the optimum's Karush-Kuhn-Tucker conditions, relative
-  double tip_radius = 0;         ///< largest radius of the design about its x axis [mm]
 };
 
 /// A fit and its points: what the summary, result.json, verdicts.csv and every report are made from. `localize` and
@@ -113,12 +108,15 @@ struct Result {
   std::optional<Mat6> covariance;  ///< of (w, dt) [rad, mm]; nothing where undetermined
   BladeDistances all;
   RegionDistances leading_edge, rest;
-  std::vector<ParameterBox> boxes;   ///< of the leading-edge region
-  double tolerance_factor = 0;       ///< optimum of the mode; 0 = it has none
-  Certificate certificate;           ///< of that optimum
-  std::uint32_t further_starts = 0;  ///< from how many other poses the optimum was sought again,
-  std::uint32_t same_optimum = 0;    ///< and how many of these led to the same one
-  std::vector<std::string> locked;   ///< degrees of freedom that kept their start value: tx, ry ...
+  std::vector<ParameterBox> boxes;    ///< of the leading-edge region
+  double tolerance_factor = 0;        ///< optimum of the mode; 0 = it has none
+  Certificate certificate;            ///< of that optimum
+  std::uint32_t further_starts = 0;   ///< from how many other poses the optimum was sought again,
+  std::uint32_t same_optimum = 0;     ///< and how many of these led to the same one
+  ShaftAxis axis;                     ///< from which radii are measured
+  double tip_radius = 0;              ///< R of r/R; 0 = not known
+  std::vector<std::string> notes;     ///< what the user should know of how the pose was found, a line each
+  std::vector<std::string> locked;    ///< degrees of freedom that kept their start value: tx, ry ...
   std::optional<LossUsed> loss;
   Outliers outliers;
   std::vector<std::uint32_t> judged_otherwise;  ///< points that a robust fit finds in instead of out, or the reverse

@@ -28,7 +28,7 @@ namespace bladefit {
 ///   60-91  the 8 newest leading-edge points out of tolerance, newest first: uint32 sequence, float32 distance
 ///
 /// Extension, in registers that v1 leaves free; a client must bear its absence (exception 2): for the k-th of those 8
-/// points, from 200 + 8 k: uint16 patch, float32 u, float32 v, float32 distance from the shaft axis x, uint16 action.
+/// points, from 200 + 8 k: uint16 patch, float32 u, float32 v, float32 distance from the shaft axis, uint16 action.
 ///   264      uint16 1: the optimum of the mode still improves, or not every point was looked at since it did
 ///   265-280  8 uint32: sequences of the points that prove the smallest feasible tolerance; 0 = no more
 ///   281      verdict on the blade: 0 not judged, 1 in tolerance, 2 out of tolerance, 3 not decided
@@ -91,7 +91,7 @@ struct PanelPlace {
   float distance = 0;
   std::uint16_t patch = 0;
   float u = 0, v = 0;
-  float radius = 0;  ///< distance of the foot from the shaft axis x
+  float radius = 0;  ///< distance of the foot from the shaft axis
   Action action = Action::none;
 };
 

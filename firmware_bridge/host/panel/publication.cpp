@@ -10,21 +10,21 @@ constexpr std::chrono::milliseconds kLongestWait{100};
 
 float to_float(double value) { return static_cast<float>(value); }
 
-PanelPlace place_of(const Verdict& verdict) {
+PanelPlace place_of(const Verdict& verdict, const ShaftAxis& axis) {
   const Foot& foot = verdict.foot;
   return {.sequence = verdict.sequence,
           .distance = to_float(foot.distance),
           .patch = static_cast<std::uint16_t>(foot.patch),
           .u = to_float(foot.u),
           .v = to_float(foot.v),
-          .radius = to_float(std::hypot(foot.point.y(), foot.point.z())),
+          .radius = to_float(axis.radius_of(foot.point)),
           .action = verdict.action};
 }
 
 }  // namespace
 
-Publication::Publication(const ToleranceMap& tolerance, PanelServer& server, HostShared& shared)
-    : tolerance_(tolerance), server_(server), shared_(shared), tally_(tolerance_) {}
+Publication::Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, PanelServer& server, HostShared& shared)
+    : tolerance_(tolerance), axis_(axis), server_(server), shared_(shared), tally_(tolerance_) {}
 
 void Publication::run() {
   const auto on_commands = [this](const PanelCommands& commands) { follow(commands); };
@@ -141,7 +141,7 @@ void Publication::update_places() {
   const std::size_t count = std::min(out.size(), kPanelPlaces);
   for (std::size_t place = 0; place < count; ++place) {
     const Verdict* const verdict = tally_.find(out[out.size() - 1 - place]);
-    if (verdict != nullptr) state_.newest[place] = place_of(*verdict);
+    if (verdict != nullptr) state_.newest[place] = place_of(*verdict, axis_);
   }
 }
 

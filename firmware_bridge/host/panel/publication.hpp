@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 
+#include "core/inspection/shaft_axis.hpp"
 #include "core/inspection/tolerance_map.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/panel/tally.hpp"
@@ -12,7 +13,7 @@ namespace bladefit {
 /// waits for a disk or a client, so that a verdict is readable on the panel as soon as it is there.
 class Publication {
  public:
-  Publication(const ToleranceMap& tolerance, PanelServer& server, HostShared& shared);
+  Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, PanelServer& server, HostShared& shared);
 
   /// Runs until HostShared::panel_closed is set and the fit is done.
   void run();
@@ -34,6 +35,7 @@ class Publication {
   void follow(const PanelCommands& commands);
 
   ToleranceMap tolerance_;
+  ShaftAxis axis_;
   PanelServer& server_;
   HostShared& shared_;
   Tally tally_;

@@ -15,6 +15,9 @@ namespace {
 
 /// Facets a patch is divided into, in each direction, at least; spans with more knots get one a span.
 constexpr std::size_t kFacets = 32;
+/// Pairs of facets of a whole design that is looked at coarsely, and parts of each direction of a patch there at least.
+constexpr double kCoarseFacets = 600;
+constexpr std::size_t kLeastParts = 4;
 /// Points from which the winding number is taken.
 constexpr std::size_t kSamples = 160;
 /// From where on a winding number counts as "enclosed". An open sheet has 0, a closed body 1/2.
@@ -74,20 +77,26 @@ std::vector<double> facet_parameters(const std::vector<double>& breaks) {
   return parameters;
 }
 
-void append_facets(const BezierPatch& patch, std::vector<Facet>& facets) {
-  const std::vector<double> us = facet_parameters(patch.breaks_u);
-  const std::vector<double> vs = facet_parameters(patch.breaks_v);
+/// The facets between points at every pair of parameters; at(u, v) is a point.
+template <class At>
+void append_facets(const std::vector<double>& us, const std::vector<double>& vs, At at, std::vector<Facet>& facets) {
   std::vector<Eigen::Vector3d> points;
   for (const double u : us) {
-    for (const double v : vs) points.push_back(evaluate(patch, u, v));
+    for (const double v : vs) points.push_back(at(u, v));
   }
-  const auto at = [&](std::size_t i, std::size_t j) { return points[i * vs.size() + j]; };
+  const auto point = [&](std::size_t i, std::size_t j) { return points[i * vs.size() + j]; };
   for (std::size_t i = 0; i + 1 < us.size(); ++i) {
     for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-      facets.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      facets.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      facets.push_back({point(i, j), point(i + 1, j), point(i + 1, j + 1)});
+      facets.push_back({point(i, j), point(i + 1, j + 1), point(i, j + 1)});
     }
   }
+}
+
+std::vector<double> even_parameters(std::size_t parts) {
+  std::vector<double> parameters;
+  for (std::size_t k = 0; k <= parts; ++k) parameters.push_back(static_cast<double>(k) / static_cast<double>(parts));
+  return parameters;
 }
 
 /// Signed solid angle under which `facet` is seen from `point`, positive from behind, in parts of the whole sphere.
@@ -130,21 +139,33 @@ Votes collect_votes(const std::vector<Facet>& facets) {
   return votes;
 }
 
+/// Whether patches have the material on different sides.
+bool contradict(const Votes& votes) { return std::min(votes.outward, votes.inward) >= kContradiction * votes.area; }
+
+/// The side where nearly all of the votes agree.
+std::optional<OutwardSide> agreed_side(const Votes& votes) {
+  const double majority = std::max(votes.outward, votes.inward);
+  if (majority < kMajority * votes.area) return std::nullopt;
+  const bool plus = votes.outward > votes.inward;
+  return OutwardSide{plus ? 1 : -1,
+                     fmt::format("the surface closes around the material: from {:.0f} % of its area it is seen all "
+                                 "around, and {}Su x Sv points out",
+                                 100 * majority / votes.area, plus ? "" : "-")};
+}
+
 }  // namespace
 
 OutwardSide find_outward_side(const std::vector<NurbsSurface>& surfaces, const std::string& file) {
   std::vector<Facet> facets;
-  for (const NurbsSurface& surface : surfaces) append_facets(extract_bezier(surface), facets);
-  const Votes votes = collect_votes(facets);
-  const double majority = std::max(votes.outward, votes.inward);
-  if (majority >= kMajority * votes.area) {
-    const bool plus = votes.outward > votes.inward;
-    return {plus ? 1 : -1,
-            fmt::format("the surface closes around the material: from {:.0f} % of its area it is seen all around, and "
-                        "{}Su x Sv points out",
-                        100 * majority / votes.area, plus ? "" : "-")};
+  for (const NurbsSurface& surface : surfaces) {
+    const BezierPatch patch = extract_bezier(surface);
+    append_facets(
+        facet_parameters(patch.breaks_u), facet_parameters(patch.breaks_v),
+        [&patch](double u, double v) { return evaluate(patch, u, v); }, facets);
   }
-  if (std::min(votes.outward, votes.inward) >= kContradiction * votes.area) {
+  const Votes votes = collect_votes(facets);
+  if (const std::optional<OutwardSide> side = agreed_side(votes)) return *side;
+  if (contradict(votes)) {
     throw ToolError(
         fmt::format("{}: the patches' normals do not all point to the same side of the material; reverse "
                     "the wrong ones in the CAD system",
@@ -154,6 +175,20 @@ OutwardSide find_outward_side(const std::vector<NurbsSurface>& surfaces, const s
       fmt::format("{}: the shape does not tell which side is away from the material; say --outward + (that "
                   "of Su x Sv) or --outward -",
                   file));
+}
+
+std::optional<OutwardSide> outward_side_of(const Surface& surface) {
+  const std::size_t patches = surface.image().patches().size();
+  const auto parts = static_cast<std::size_t>(std::sqrt(kCoarseFacets / static_cast<double>(patches)));
+  const std::vector<double> parameters = even_parameters(std::max(parts, kLeastParts));
+  std::vector<Facet> facets;
+  for (std::uint32_t patch = 0; patch < patches; ++patch) {
+    const auto at = [&](double u, double v) -> Eigen::Vector3d {
+      return surface.evaluate(surface.place_at(patch, u, v)).s;
+    };
+    append_facets(parameters, parameters, at, facets);
+  }
+  return agreed_side(collect_votes(facets));
 }
 
 }  // namespace bladefit

@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/geometry/surface/surface.hpp"
 #include "tools/design/nurbs/nurbs_surface.hpp"
 
 namespace bladefit {
@@ -17,5 +19,8 @@ struct OutwardSide {
 /// open sheet. `file` is named in messages. Throws ToolError where the shape does not tell, or patches contradict
 /// each other.
 OutwardSide find_outward_side(const std::vector<NurbsSurface>& surfaces, const std::string& file);
+
+/// The same of a compiled design, more coarsely; nothing where the shape does not tell. Cost: some 10 ms.
+[[nodiscard]] std::optional<OutwardSide> outward_side_of(const Surface& surface);
 
 }  // namespace bladefit

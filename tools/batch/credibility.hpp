@@ -1,0 +1,18 @@
+#pragma once
+#include "tools/search/candidate_fit.hpp"
+#include "tools/search/design_samples.hpp"
+
+namespace bladefit {
+
+/// Length against which the distances of a fit are weighed [mm]: half the extent of the points, at most the half
+/// diagonal of the design. Real blades are within some thousandths of it.
+[[nodiscard]] double scale_of(const DesignSamples& samples, double extent_mm);
+[[nodiscard]] double scale_of(double half_diagonal_mm, double extent_mm);
+
+/// Whether points that lie like this may belong to the design: three quarters of them within a hundredth of the scale.
+[[nodiscard]] bool is_credible(const PoseFit& fit, double scale_mm);
+
+/// Whether it is worth looking for a better pose: three quarters of them are not within some thousandths.
+[[nodiscard]] bool is_suspect(const PoseFit& fit, double scale_mm);
+
+}  // namespace bladefit

@@ -1,0 +1,150 @@
+#include "tools/batch/rival_poses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry/nearest/global_projection.hpp"
+#include "tools/search/pose_search.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr int kMostBlades = 9;
+/// Points that are looked at first, and those that a rival is fitted to.
+constexpr std::size_t kFirstLooks = 5, kRivalPoints = 100;
+/// Points of a turned blade lie as near as this to the next one, before the fit; poses that bring the points no farther
+/// apart than the second are the same [half diagonals].
+constexpr double kNear = 0.05, kSamePose = 0.01;
+/// How far off the further starts of few points lie, at least and at most [half diagonals].
+constexpr double kLeastOff = 0.01, kMostOff = 0.1;
+/// 95 % of the ratios of two root mean squares with n degrees of freedom are below exp(kByChance / sqrt(n)).
+constexpr double kByChance = 1.645;
+
+ProjectionQuery query_of(const RivalQuestion& question, const Pose& pose, const ProbePoint& point) {
+  ProjectionQuery query;
+  query.point = apply(pose, Vec3(point.position.data()));
+  if (question.plan.localizer.use_approach) query.approach = pose.rotation * Vec3(point.approach.data());
+  return query;
+}
+
+/// Whether the first of the points lie near to the surface at the pose.
+bool is_near(const RivalQuestion& question, const Surface& surface, const std::vector<ProbePoint>& looks,
+             const Pose& pose) {
+  const double near = kNear * surface.half_diagonal() + question.plan.localizer.probe_radius_mm;
+  return std::all_of(looks.begin(), looks.end(), [&](const ProbePoint& point) {
+    const ProjectionQuery query{query_of(question, pose, point).point};
+    return std::sqrt(project_global(surface, query, nullptr).nearest.distance_squared()) < near;
+  });
+}
+
+/// The pose turned about an axis of the design.
+Pose turned(const Pose& pose, const ShaftAxis& axis, double angle) {
+  Vec6 step = Vec6::Zero();
+  step.head<3>() = angle * axis.direction;
+  return moved(pose, step, axis.point);
+}
+
+/// Angles by which one blade of 2 to kMostBlades follows another, each once [rad].
+std::vector<double> blade_angles() {
+  std::vector<double> angles;
+  for (int blades = 2; blades <= kMostBlades; ++blades) {
+    for (int k = 1; k < blades; ++k) angles.push_back(2.0 * std::numbers::pi * k / blades);
+  }
+  std::sort(angles.begin(), angles.end());
+  const auto same = [](double a, double b) { return b - a < 1e-9; };
+  angles.erase(std::unique(angles.begin(), angles.end(), same), angles.end());
+  return angles;
+}
+
+struct NamedAxis {
+  ShaftAxis axis;
+  std::string name;
+};
+
+/// The axis that was named, and those of the coordinates.
+std::vector<NamedAxis> axes_of(const ShaftAxis& named) {
+  std::vector<NamedAxis> axes;
+  constexpr std::array<const char*, 3> kNames = {"x axis", "y axis", "z axis"};
+  bool known = false;
+  for (int k = 0; k < 3; ++k) {
+    axes.push_back({{Vec3::Zero(), Vec3::Unit(k)}, kNames.at(static_cast<std::size_t>(k))});
+    known = known || (named.point.isZero() && named.direction == axes.back().axis.direction);
+  }
+  if (!known) axes.push_back({named, "axis"});
+  return axes;
+}
+
+/// Adds the fit from `start` where it is another pose and fits as well.
+void add_rival(const RivalQuestion& question, const std::vector<ProbePoint>& points, double own_rms_mm,
+               const Pose& start, const std::string& how, std::vector<Rival>& rivals) {
+  const PoseFit fit = fit_candidate(question.design, question.plan.localizer, points, start);
+  const double same = kSamePose * Surface(question.design).half_diagonal();
+  const bool as_good = 10 * fit.counted >= 9 * fit.points && fits_as_well(fit.rms_mm, own_rms_mm, fit.counted);
+  if (!as_good || apart(points, fit.pose, question.own.pose) < same) return;
+  for (const Rival& rival : rivals) {
+    if (apart(points, fit.pose, rival.fit.pose) < same) return;
+  }
+  rivals.push_back({fit, own_rms_mm, how});
+}
+
+}  // namespace
+
+bool fits_as_well(double rms_mm, double own_rms_mm, std::uint32_t count) {
+  const double free = std::max(1.0, static_cast<double>(count) - 6.0);
+  // Form errors of a blade are no independent errors: however many points there are, half as much again is as good.
+  return rms_mm <= std::max(1.5, std::exp(kByChance / std::sqrt(free))) * own_rms_mm + 1e-9;
+}
+
+bool start_prefers(const RivalQuestion& question, const Rival& rival) {
+  const Pose& start = question.plan.localizer.start;
+  return apart(question.points, start, question.own.pose) < 0.5 * apart(question.points, start, rival.fit.pose);
+}
+
+std::vector<Rival> other_blades(const RivalQuestion& question) {
+  const Surface surface(question.design);
+  const std::vector<ProbePoint> looks = some_of(question.points, kFirstLooks);
+  const std::vector<ProbePoint> points = some_of(question.points, kRivalPoints);
+  std::vector<Rival> rivals;
+  double own_rms_mm = -1;
+  for (const NamedAxis& axis : axes_of(question.plan.axis)) {
+    for (const double angle : blade_angles()) {
+      const Pose pose = turned(question.own.pose, axis.axis, angle);
+      if (!is_near(question, surface, looks, pose)) continue;
+      if (own_rms_mm < 0)
+        own_rms_mm = fit_candidate(question.design, question.plan.localizer, points, question.own.pose).rms_mm;
+      add_rival(
+          question, points, own_rms_mm, pose,
+          fmt::format("turned by {:.4g} degrees about the design's {}", angle * 180 / std::numbers::pi, axis.name),
+          rivals);
+    }
+  }
+  return rivals;
+}
+
+std::vector<Rival> competing_optima(const RivalQuestion& question) {
+  const bool directed = std::any_of(question.points.begin(), question.points.end(),
+                                    [](const ProbePoint& p) { return Vec3(p.approach.data()).squaredNorm() > 0.5; });
+  const bool few = question.points.size() < kFewPoints;
+  if (!few || (directed && question.plan.localizer.use_approach) || question.points.size() <= 6) return {};
+  const Surface surface(question.design);
+  const double length = surface.half_diagonal();
+  const Pose& own = question.own.pose;
+  const double was_off = apart(question.points, question.plan.localizer.start, own);
+  const double off = std::clamp(was_off, kLeastOff * length, kMostOff * length);
+  Vec3 middle = Vec3::Zero();
+  for (const ProbePoint& point : question.points) middle += apply(own, Vec3(point.position.data()));
+  middle /= static_cast<double>(question.points.size());
+  std::vector<Rival> rivals;
+  for (int direction = 0; direction < 12; ++direction) {
+    Vec6 step = Vec6::Zero();
+    step[direction / 2] = (direction % 2 == 0 ? 1 : -1) * (direction < 6 ? 2.0 * off / length : off);
+    add_rival(question, question.points, question.own.rms_mm, moved(own, step, middle), "", rivals);
+  }
+  return rivals;
+}
+
+}  // namespace bladefit
