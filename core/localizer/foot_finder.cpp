@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/nearest/held_sides.hpp"
+
 namespace bladefit {
 
 StoredPoint FootFinder::new_point(const ProbePoint& point, const SurfacePlace& start) const {

@@ -80,4 +80,12 @@ HeldSides held_sides(const Surface& surface, const Projection& projection) {
   return out;
 }
 
+bool falls_over_seam(const Surface& surface, const Projection& projection) {
+  const SurfacePoint& at = projection.at;
+  const auto over = [&](bool fixed, std::size_t low, const Vec3& across) {
+    return fixed && held_side(surface, projection, low, across).joint == Joint::smooth;
+  };
+  return over(projection.fixed_u, kLowU, at.s_u) || over(projection.fixed_v, kLowV, at.s_v);
+}
+
 }  // namespace bladefit

@@ -15,4 +15,7 @@ struct HeldSides {
 /// patch: that side counts. Cost: some ten dot products; nothing where the projection is not held.
 [[nodiscard]] HeldSides held_sides(const Surface& surface, const Projection& projection);
 
+/// It is held at an edge beyond which another patch continues the surface smoothly: the foot may lie there.
+[[nodiscard]] bool falls_over_seam(const Surface& surface, const Projection& projection);
+
 }  // namespace bladefit

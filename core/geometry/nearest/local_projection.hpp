@@ -24,9 +24,6 @@ struct Projection {
 [[nodiscard]] Projection project_local(const Surface& surface, const Vec3& r, const SurfacePlace& start,
                                        const ParameterLimits& limits = {});
 
-/// It is held at an edge beyond which another patch continues the surface: the foot may lie there.
-[[nodiscard]] bool falls_over_seam(const Surface& surface, const Projection& projection);
-
 /// The foot that a projection stands for. `probe_radius` [mm] is subtracted from the distance. A foot that is held at a
 /// smooth joint is interior: the neighbour continues the surface there, but for a gap or a bend within the design's
 /// accuracy, and its distance is along the normal. At a joint that bends, it is an edge, and its distance is the length
