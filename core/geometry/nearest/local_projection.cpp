@@ -162,8 +162,7 @@ Projection project_local(const Surface& surface, const Vec3& r, const SurfacePla
 
 bool falls_over_seam(const Surface& surface, const Projection& projection) {
   const std::uint32_t ends = surface.span(projection.place.span).ends;
-  const bool over_u =
-      projection.fixed_u && (ends & (projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU)) != 0;
+  const bool over_u = projection.fixed_u && (ends & (projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU)) != 0;
   return over_u || (projection.fixed_v && (ends & (projection.place.v <= 0.5 ? kSeamAtLowV : kSeamAtHighV)) != 0);
 }
 
