@@ -115,8 +115,7 @@ std::size_t Localizer::memory_required(const LocalizerConfig& config) {
   const std::uint64_t points = config.capacity;
   const std::uint64_t size = rounded_up(sizeof(Localizer)) + rounded_up(sizeof(LocalizerParts)) +
                              rounded_up(sizeof(StoredPoint) * points) + 2 * rounded_up(sizeof(std::uint32_t) * points) +
-                             rounded_up(sizeof(double) * rows) +
-                             rounded_up(sizeof(SurfacePlace) * places * points);
+                             rounded_up(sizeof(double) * rows) + rounded_up(sizeof(SurfacePlace) * places * points);
   return static_cast<std::size_t>(std::min<std::uint64_t>(size, kMoreThanThereIs));
 }
 

@@ -101,8 +101,8 @@ struct FitReport {
   /// where constrained is infeasible, the smallest leading-edge tolerance that is not, the ratio kept, or where there
   /// is none the smallest tolerance of the rest [mm]. 0 until known.
   double mode_value_mm = 0;
-  /// Smallest leading-edge tolerance that some pose meets, the ratio kept, from min_tolerance and constrained; 0 until
-  /// known [mm].
+  /// Smallest leading-edge tolerance that some pose meets, the ratio kept, from min_tolerance and constrained [mm]. 0
+  /// until known, and where the least-squares optimum meets the tolerances: then it is not sought.
   double smallest_tolerance_mm = 0;
   Certificate certificate;  ///< of that optimum; no points in least squares, range and a feasible constrained fit
   double stationarity = 0;  ///< of its Karush-Kuhn-Tucker conditions, relative: the self check of the mode

@@ -227,7 +227,8 @@ typedef struct bladefit_fit_report {
   double tolerance_factor_mm; /* optimum of the mode: largest distance, range, smallest leading-edge tolerance (also of
                                  an infeasible constrained fit); 0 until known */
   double smallest_tolerance_mm; /* smallest leading-edge tolerance that some pose meets, the ratio kept, in the modes
-                                   min_tolerance and constrained; 0 until known */
+                                   min_tolerance and constrained; 0 until known, and where the least-squares optimum
+                                   meets the tolerances: then it is not sought */
   double stationarity;          /* relative residual of the optimum's Karush-Kuhn-Tucker conditions */
   double loss_scale_mm;         /* of the robust loss in use; 0 = none */
   bladefit_certificate certificate;

@@ -81,14 +81,14 @@ void FurtherStarts::sweep_on(PointStore& store, ModeProgram& program, KeptSheets
       },
       [&](std::uint32_t i, const Measurement& tracked) {
         if (!first || !matters(program, i, tracked)) return take_in(store, i, tracked, program, sheets);
-        take_in(store, i, finder_.find_from({place_of(store[i]), Search::always}, store[i], start_.pose), program, sheets);
+        take_in(store, i, finder_.find_from({place_of(store[i]), Search::always}, store[i], start_.pose), program,
+                sheets);
       });
 }
 
 /// The first feet of a start are those of the optimum found before, tracked. Of what is far out the nearest are sought.
 bool FurtherStarts::matters(const ModeProgram& program, std::uint32_t i, const Measurement& m) const {
-  return own_.value == kInfinity ||
-         std::abs(m.foot.distance) > tuning::kStartSearch * own_.value * program.unit_of(i);
+  return own_.value == kInfinity || std::abs(m.foot.distance) > tuning::kStartSearch * own_.value * program.unit_of(i);
 }
 
 void FurtherStarts::take_in(PointStore& store, std::uint32_t i, const Measurement& m, ModeProgram& program,

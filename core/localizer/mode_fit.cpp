@@ -27,6 +27,7 @@ void ModeFit::attach(double* rows, SurfacePlace* places, std::uint32_t capacity)
 void ModeFit::restart() {
   program_.restart();
   starts_.restart();
+  sweeps_ = 0;
   why_ = FitEnd::none;
 }
 
@@ -75,6 +76,7 @@ void ModeFit::note(std::uint32_t index, const Measurement& m, bool counts) {
 }
 
 ModeFit::Next ModeFit::finish_sweep(bool concluded, ModeOptimum& optimum) {
+  if (++sweeps_ > tuning::kModeSweeps) return give_up(FitEnd::sweeps_used_up);
   const double merit = program_.merit(sums_.model());
   switch (sheets_.weigh(sweep_.proof(), merit, estimate_.pose(), store_.size())) {
     case SheetDescent::Outcome::same:
@@ -159,8 +161,7 @@ ModeFit::Next ModeFit::seek_better(double value, bool concluded) {
 
 ModeFit::Next ModeFit::go_elsewhere(bool concluded) {
   if (!mode_row(program_.mode()).has_value) return Next::given_up;
-  return starts_.done() ? go_back(Next::given_up)
-                        : begin_starts(std::numeric_limits<double>::infinity(), concluded);
+  return starts_.done() ? go_back(Next::given_up) : begin_starts(std::numeric_limits<double>::infinity(), concluded);
 }
 
 /// The best of the starts was not the best over all points: back to the optimum found before.

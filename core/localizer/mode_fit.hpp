@@ -71,6 +71,7 @@ class ModeFit {
   ModeProgram program_;
   SheetDescent sheets_;
   FurtherStarts starts_;
+  std::uint32_t sweeps_ = 0;  ///< of all programs of the refinement
   double squares_range_ = 0;  ///< range of the distances at the least-squares optimum [mm]
   FitEnd why_ = FitEnd::none;
 };

@@ -51,7 +51,7 @@ struct ModeOptimum {
   double value = 0;               ///< 0 until known
   double smallest_tolerance = 0;  ///< smallest feasible tolerance of the leading edge; 0 until known
   double stationarity = 0;
-  std::uint32_t held_feet = 0;    ///< FitReport::held_feet
+  std::uint32_t held_feet = 0;  ///< FitReport::held_feet
   Certificate certificate;
   bool infeasible = false;  ///< proven: no pose meets the tolerances
 

@@ -96,7 +96,10 @@ bool RunningSums::refresh(PointStore& store, const PoseEstimate& estimate, std::
       if (!store[cursor_].recent) indices[count++] = cursor_;
     }
     finder_.find_each(
-        store, {indices.data(), count}, estimate.pose(), x, [&](std::uint32_t index) { return FootStart{place_of(store[index]), Search::past_margin}; },
+        store, {indices.data(), count}, estimate.pose(), x,
+        [&](std::uint32_t index) {
+          return FootStart{place_of(store[index]), Search::past_margin};
+        },
         [&](std::uint32_t index, const Measurement& m) {
           review(index, m);
           if (contested(store[index]) && recent_count_ + tuning::kNewestRecent < tuning::kRecentPlaces) {
@@ -120,7 +123,10 @@ void RunningSums::gather(PointStore& store, const Pose& pose, std::uint32_t newe
   const Vec6 x = motion_between(current_.model.reference, pose, problem_.frame);
   const auto each = [&](std::uint32_t first, std::uint32_t end) {
     finder_.find_each(
-        store, {recent_.data() + first, end - first}, pose, x, [&](std::uint32_t index) { return FootStart{place_of(store[index]), Search::past_margin}; },
+        store, {recent_.data() + first, end - first}, pose, x,
+        [&](std::uint32_t index) {
+          return FootStart{place_of(store[index]), Search::past_margin};
+        },
         [&](std::uint32_t index, const Measurement& m) {
           review(index, m);
           add(current_, store[index], m, x);

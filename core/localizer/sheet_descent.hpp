@@ -62,8 +62,8 @@ class SheetDescent {
     bool add(std::uint32_t i);
   };
 
-  /// How a foot is held: n . a is no more than what it was at the proven pose, or 0, counted in the length that the pose
-  /// must have moved for it there.
+  /// How a foot is held: n . a is no more than what it was at the proven pose, or 0, counted in the length that the
+  /// pose must have moved for it there.
   struct Hold {
     bool known = false;
     double allowed = 0, slope = 0;  ///< [-, 1/mm]

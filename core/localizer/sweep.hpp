@@ -23,9 +23,7 @@ class Sweep {
   /// It is to prove every foot.
   [[nodiscard]] bool proof() const { return thorough_; }
   /// The same while points keep their sheets.
-  [[nodiscard]] Search search_of_kept() const {
-    return thorough_ && !proven_already() ? Search::always : Search::keep;
-  }
+  [[nodiscard]] Search search_of_kept() const { return thorough_ && !proven_already() ? Search::always : Search::keep; }
   /// The next sweep is to prove every foot.
   void prove_next() { next_proves_ = true; }
   /// Feet of this sweep whose search met its cap.

@@ -107,19 +107,23 @@ class Experiment {
     t.total_s += fit.refine_s;
     const bool well = fit.answered() && fit.complaint.empty() && fit.refine_s <= kMostSeconds;
     if (well && !wanted_.list) return;
-    std::printf("%3llu %-12s %-4s %-30s %s status %d %s held %u value %.9g (%.9g) searches %u unproven %u %.3f + %.3f s %s | %s\n",
-                static_cast<unsigned long long>(seed), source.c.name.c_str(), source.subset.c_str(), kind.c_str(),
-                fit.answered() ? "answered  " : "UNANSWERED", static_cast<int>(fit.report.status),
-                std::string(word_of(fit.report.ended)).c_str(), fit.report.held_feet, fit.value,
-                fit.least_squares_value, fit.report.searches, fit.report.unproven, fit.push_s, fit.refine_s, fit.complaint.c_str(),
-                pattern.text.c_str());
+    std::printf(
+        "%3llu %-12s %-4s %-30s %s status %d %s held %u value %.9g (%.9g) searches %u unproven %u %.3f + %.3f s %s | "
+        "%s\n",
+        static_cast<unsigned long long>(seed), source.c.name.c_str(), source.subset.c_str(), kind.c_str(),
+        fit.answered() ? "answered  " : "UNANSWERED", static_cast<int>(fit.report.status),
+        std::string(word_of(fit.report.ended)).c_str(), fit.report.held_feet, fit.value, fit.least_squares_value,
+        fit.report.searches, fit.report.unproven, fit.push_s, fit.refine_s, fit.complaint.c_str(),
+        pattern.text.c_str());
     std::fflush(stdout);
   }
 
   static void print(const std::string& name, const Tally& t) {
-    std::printf("%-32s %5d fits: %5d converged, %4d infeasible, %4d unanswered, %4d wrong, %3d slow; longest %.2f s, mean %.3f s\n",
-                name.c_str(), t.fits, t.converged, t.infeasible, t.unanswered, t.wrong, t.slow, t.longest_s,
-                t.fits > 0 ? t.total_s / t.fits : 0.0);
+    std::printf(
+        "%-32s %5d fits: %5d converged, %4d infeasible, %4d unanswered, %4d wrong, %3d slow; longest %.2f s, mean %.3f "
+        "s\n",
+        name.c_str(), t.fits, t.converged, t.infeasible, t.unanswered, t.wrong, t.slow, t.longest_s,
+        t.fits > 0 ? t.total_s / t.fits : 0.0);
   }
 
   Wanted wanted_;

@@ -43,7 +43,9 @@ bool close(double a, double b, double rounding) { return std::abs(a - b) <= 1e-7
 void check(const ModeValue& objective, double rounding, DefectFit& out) {
   const FitReport& report = out.report;
   const FitMode mode = objective.config().mode;
-  const auto complain = [&out](const std::string& what) { out.complaint += (out.complaint.empty() ? "" : "; ") + what; };
+  const auto complain = [&out](const std::string& what) {
+    out.complaint += (out.complaint.empty() ? "" : "; ") + what;
+  };
   if (mode != FitMode::constrained && !close(out.value, report.mode_value_mm, rounding))
     complain("told " + number(report.mode_value_mm) + ", is " + number(out.value));
   if (out.value > out.least_squares_value * (1.0 + 1e-9) + rounding && report.status != FitStatus::infeasible)

@@ -14,7 +14,9 @@ double drawn(std::mt19937_64& random) { return static_cast<double>(random() >> 1
 
 double drawn(std::mt19937_64& random, double low, double high) { return low + (high - low) * drawn(random); }
 
-std::size_t drawn_below(std::mt19937_64& random, std::size_t count) { return static_cast<std::size_t>(random() % count); }
+std::size_t drawn_below(std::mt19937_64& random, std::size_t count) {
+  return static_cast<std::size_t>(random() % count);
+}
 
 double distance_between(const ProbePoint& a, const ProbePoint& b) {
   return (Vec3(a.position.data()) - Vec3(b.position.data())).norm();
@@ -99,7 +101,8 @@ DefectPattern DefectPatterns::make(std::uint64_t seed) const {
     for (const std::size_t i : neighbours(good, centre, count)) {
       for (std::size_t k = 0; k < 3; ++k) pattern.points[i].position[k] -= height * pattern.points[i].approach[k];
     }
-    pattern.text += " " + std::to_string(count) + "x" + std::to_string(height).substr(0, 6) + "@" + std::to_string(centre);
+    pattern.text +=
+        " " + std::to_string(count) + "x" + std::to_string(height).substr(0, 6) + "@" + std::to_string(centre);
   }
   pattern.leading_edge_mm = rms_mm_ * drawn(random, 1.5, 8.0);
   pattern.rest_mm = pattern.leading_edge_mm * (drawn(random) < 0.5 ? 10.0 : 3.0);

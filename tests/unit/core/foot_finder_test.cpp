@@ -56,7 +56,10 @@ TEST(FootFinder, FindsPointsTogetherToTheBitsOfEachAlone) {
       std::vector<std::uint32_t> indices(count), order;
       std::iota(indices.rbegin(), indices.rend(), first);  // not as they are stored
       finder.find_each(
-          found.parts->store, indices, found.pose, kAway, [&](std::uint32_t index) { return FootStart{place_of(found.parts->store[index]), search}; },
+          found.parts->store, indices, found.pose, kAway,
+          [&](std::uint32_t index) {
+            return FootStart{place_of(found.parts->store[index]), search};
+          },
           [&](std::uint32_t index, const Measurement& m) {
             order.push_back(index);
             const Measurement alone = finder.find(found.parts->store[index], found.pose, search);

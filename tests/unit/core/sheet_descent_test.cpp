@@ -1,0 +1,210 @@
+// Points that keep their sheets while a program runs, and the descent over poses whose feet are those of the
+// conventions.
+
+#include <gtest/gtest.h>
+
+#include "core/fit/facing_row.hpp"
+#include "tests/support/localizer_fixtures.hpp"
+#include "tests/unit/core/owned_parts.hpp"
+
+namespace bladefit::testing {
+namespace {
+
+using Outcome = SheetDescent::Outcome;
+
+constexpr std::uint32_t kPoints = 60;
+
+LocalizerConfig descending_config() {
+  LocalizerConfig config = config_of(read_case("dtmb4119"), kPoints);
+  config.mode = FitMode::minimax;
+  return config;
+}
+
+/// Points at their least-squares optimum, and the program of their minimax.
+struct Descending {
+  Descending()
+      : parts(reference_design("dtmb4119").image(), descending_config()),
+        rows(BoundRows::doubles_for(kPoints)),
+        places(KeptSheets::kPlacesPerPoint * kPoints),
+        program(parts->problem, parts->plan),
+        descent(parts->problem) {
+    program.attach(rows.data(), kPoints);
+    descent.attach(places.data(), kPoints);
+    parts.store(thinned(read_case("dtmb4119"), 0, 45));
+    parts.fit();
+    parts->selection.hold(parts->store);
+    (void)program.assign_regions(parts->store, parts->verdicts);
+    program.begin(FitMode::minimax, parts->store.size());
+    descent.begin(parts->store, false);
+    pose = parts->estimate.pose();
+  }
+
+  /// A sweep at the pose that keeps every sheet.
+  void sweep() {
+    program.set_pose(pose);
+    descent.begin_sweep(program);
+    for (std::uint32_t i = 0; i < parts->store.size(); ++i) note(i, false);
+  }
+  void note(std::uint32_t i, bool other) {
+    const StoredPoint& point = parts->store[i];
+    Measurement m = parts->finder.find_from({descent.kept(i), Search::keep}, point, pose);
+    m.changed = other;
+    const bool counts = !parts->selection.left_out(point, m.foot);
+    descent.note(i, point, pose, m, counts, program);
+    if (!counts) return program.skip_row(i);
+    program.set_row(i, parts->finder.row(m, Vec6::Zero()));
+  }
+  [[nodiscard]] Outcome weigh(bool proof, double merit) {
+    return descent.weigh(proof, merit, pose, parts->store.size());
+  }
+  void shift(double x_mm) { pose.translation.x() += x_mm; }
+  [[nodiscard]] Vec3 kept_place(std::uint32_t i) const { return {descent.kept(i).u, descent.kept(i).v, 0.0}; }
+
+  OwnedParts parts;
+  std::vector<double> rows;
+  std::vector<SurfacePlace> places;
+  ModeProgram program;
+  SheetDescent descent;
+  Pose pose;
+};
+
+TEST(SheetDescent, NoStepThatIsAcceptedRaisesTheMerit) {
+  Descending d;
+  double last = std::numeric_limits<double>::infinity();
+  Pose from = d.pose;
+  int accepted = 0;
+  bool settled = false;
+  for (int k = 0; k < 60 && !settled; ++k) {
+    d.sweep();
+    const double merit = d.program.merit(d.parts->sums.model());
+    const BoundedFit::Step step = d.program.step(d.parts->sums.model());
+    ASSERT_EQ(step.status, Status::ok);
+    if (!step.from_last) {
+      EXPECT_LE(merit, last * (1.0 + 1e-9)) << "sweep " << k;
+      last = merit;
+      from = d.pose;
+      d.descent.accept(d.parts->store.size());
+      ++accepted;
+    }
+    settled = step.settled;
+    d.pose = d.parts->problem.moved_and_held(from, step.x);
+  }
+  EXPECT_TRUE(settled);
+  EXPECT_GT(accepted, 2);
+}
+
+TEST(SheetDescent, TracksFromWhatIsKeptUntilAStepIsAccepted) {
+  Descending d;
+  d.sweep();
+  d.descent.accept(d.parts->store.size());
+  const Vec3 before = d.kept_place(7);
+  d.shift(0.2);
+  d.sweep();
+  EXPECT_EQ(d.kept_place(7), before) << "a pose is tried";
+  d.descent.accept(d.parts->store.size());
+  EXPECT_NE(d.kept_place(7), before) << "and counts";
+}
+
+TEST(SheetDescent, OtherFeetCountWhereTheMeritHasNotRisen) {
+  Descending d;
+  d.sweep();
+  EXPECT_EQ(d.weigh(false, 1.0), Outcome::same) << "the first pose";
+  const Pose first = d.pose;
+  d.shift(0.1);
+  d.sweep();
+  EXPECT_EQ(d.weigh(false, 7.0), Outcome::same) << "nothing was sought";
+  EXPECT_TRUE(same_bits(d.descent.proven_pose(), first));
+  d.sweep();
+  d.note(3, true);
+  EXPECT_EQ(d.weigh(true, 0.9), Outcome::adopted);
+  EXPECT_TRUE(same_bits(d.descent.proven_pose(), d.pose));
+  d.sweep();
+  EXPECT_EQ(d.weigh(true, 0.8), Outcome::same) << "all are those of before";
+}
+
+TEST(SheetDescent, GoesBackAndHoldsFeetThatWouldRaiseTheMerit) {
+  Descending d;
+  d.sweep();
+  (void)d.weigh(true, 1.0);
+  d.descent.accept(d.parts->store.size());
+  const Pose proven = d.pose;
+  const Vec3 place = d.kept_place(3);
+  d.shift(0.1);
+  d.sweep();
+  d.note(3, true);
+  EXPECT_EQ(d.weigh(true, 1.5), Outcome::back);
+  EXPECT_TRUE(same_bits(d.descent.proven_pose(), proven));
+  EXPECT_EQ(d.kept_place(3), place);
+  d.pose = proven;
+  d.sweep();
+  EXPECT_DOUBLE_EQ(d.program.merit(d.parts->sums.model()), d.program.value()) << "nothing is broken there";
+
+  d.sweep();
+  d.note(3, true);
+  EXPECT_EQ(d.weigh(true, 1.5), Outcome::back) << "it is held already: nothing is held any more";
+  d.sweep();
+  d.note(3, true);
+  EXPECT_EQ(d.weigh(true, 1.5), Outcome::adopted) << "whatever it costs";
+  d.sweep();
+  EXPECT_EQ(d.weigh(true, 1.2), Outcome::stuck) << "worse than where it began";
+  EXPECT_EQ(d.descent.let_go(d.parts->store.size()), Outcome::stuck) << "once only";
+}
+
+TEST(SheetDescent, EndsHoweverOftenFeetChange) {
+  Descending d;
+  d.sweep();
+  (void)d.weigh(true, 1.0);
+  int rounds = 0;
+  for (Outcome outcome = Outcome::same; outcome != Outcome::stuck && rounds < 1000; ++rounds) {
+    d.sweep();
+    d.note(static_cast<std::uint32_t>(rounds) % 50, true);
+    outcome = d.weigh(true, 2.0);
+  }
+  EXPECT_LT(rounds, 100);
+}
+
+/// A limit is a condition that the program's solution keeps.
+TEST(SheetDescent, AProgramKeepsItsLimits) {
+  Descending d;
+  d.sweep();
+  const double value = d.program.value();
+  const BoundedFit::Step free = d.program.step(d.parts->sums.model());
+  ASSERT_EQ(free.status, Status::ok);
+  const Vec6 along = free.x.normalized();
+  d.program.begin(FitMode::minimax, d.parts->store.size());
+  d.sweep();
+  d.program.set_limits(1);
+  d.program.set_limit(0, -0.25 * free.x.norm(), along);
+  const BoundedFit::Step held = d.program.step(d.parts->sums.model());
+  ASSERT_EQ(held.status, Status::ok);
+  EXPECT_NEAR(held.x.dot(along), 0.25 * free.x.norm(), 1e-9);
+  EXPECT_EQ(d.program.held_feet(), 1U);
+  d.program.set_limit(0, 0.5, along);
+  EXPECT_GT(d.program.merit(d.parts->sums.model()), value) << "one that is broken costs";
+}
+
+TEST(FacingRow, AgreesWithDifferences) {
+  Descending d;
+  const MotionFrame& frame = d.parts->problem.frame;
+  int looked = 0;
+  for (std::uint32_t i = 0; i < d.parts->store.size(); i += 3) {
+    const StoredPoint& point = d.parts->store[i];
+    const auto facing_at = [&](const Vec6& x) {
+      const Pose pose = moved(d.pose, x, frame);
+      const Measurement m = d.parts->finder.find_from({place_of(point), Search::keep}, point, pose);
+      return facing_row(m.projection, m.foot.normal, m.r, pose.rotation * point.approach, frame);
+    };
+    if (d.parts->finder.find(point, d.pose, Search::keep).foot.kind != FootKind::interior) continue;
+    const FacingRow row = facing_at(Vec6::Zero());
+    for (int k = 0; k < 6; ++k) {
+      constexpr double kStep = 1e-5;
+      const double difference = (facing_at(kStep * Vec6::Unit(k)).facing - facing_at(-kStep * Vec6::Unit(k)).facing);
+      EXPECT_NEAR(row.gradient[k], difference / (2.0 * kStep), 1e-4 * (1.0 + row.gradient.norm())) << i << " " << k;
+    }
+    ++looked;
+  }
+  EXPECT_GT(looked, 10);
+}
+
+}  // namespace
+}  // namespace bladefit::testing
