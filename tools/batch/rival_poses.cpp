@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "core/geometry/nearest/global_projection.hpp"
+#include "tools/batch/blades.hpp"
 #include "tools/search/pose_search.hpp"
 
 namespace bladefit {
@@ -19,6 +21,8 @@ constexpr std::size_t kFirstLooks = 5, kRivalPoints = 100;
 /// Points of a turned blade lie as near as this to the next one, before the fit; poses that bring the points no farther
 /// apart than the second are the same [half diagonals].
 constexpr double kNear = 0.05, kSamePose = 0.01;
+/// The same of poses that were searched.
+constexpr double kSameFound = 0.02;
 /// How far off the further starts of few points lie, at least and at most [half diagonals].
 constexpr double kLeastOff = 0.01, kMostOff = 0.1;
 /// 95 % of the ratios of two root mean squares with n degrees of freedom are below exp(kByChance / sqrt(n)).
@@ -91,6 +95,22 @@ void add_rival(const RivalQuestion& question, const std::vector<ProbePoint>& poi
   rivals.push_back({fit, own_rms_mm, how});
 }
 
+/// Both ways along each degree of freedom, and along combinations of all six.
+std::vector<Vec6> start_directions() {
+  std::vector<Vec6> directions;
+  for (int k = 0; k < 6; ++k) {
+    directions.emplace_back(Vec6::Unit(k));
+    directions.emplace_back(-Vec6::Unit(k));
+  }
+  for (unsigned row = 1; row <= 6; ++row) {
+    Vec6 direction;  // signs of a Walsh function: rows that have little in common
+    for (unsigned k = 0; k < 6; ++k) direction[k] = (std::popcount(row & (k + 1)) % 2 == 0 ? 1.0 : -1.0);
+    directions.push_back(direction);
+    directions.emplace_back(-direction);
+  }
+  return directions;
+}
+
 }  // namespace
 
 bool fits_as_well(double rms_mm, double own_rms_mm, std::uint32_t count) {
@@ -139,12 +159,41 @@ std::vector<Rival> competing_optima(const RivalQuestion& question) {
   for (const ProbePoint& point : question.points) middle += apply(own, Vec3(point.position.data()));
   middle /= static_cast<double>(question.points.size());
   std::vector<Rival> rivals;
-  for (int direction = 0; direction < 12; ++direction) {
-    Vec6 step = Vec6::Zero();
-    step[direction / 2] = (direction % 2 == 0 ? 1 : -1) * (direction < 6 ? 2.0 * off / length : off);
+  for (const Vec6& direction : start_directions()) {
+    Vec6 step = off * direction;
+    step.head<3>() *= 2.0 / length;
     add_rival(question, question.points, question.own.rms_mm, moved(own, step, middle), "", rivals);
   }
   return rivals;
+}
+
+std::vector<Rival> rivals_among(const std::vector<PoseFit>& found, const RivalQuestion& question) {
+  std::vector<Rival> rivals;
+  const double same = kSameFound * Surface(question.design).half_diagonal();
+  for (const PoseFit& other : found) {
+    const PoseFit& best = found.front();
+    const bool as_good =
+        10 * other.counted >= 9 * best.counted && fits_as_well(other.rms_mm, best.rms_mm, best.counted);
+    if (as_good && apart(question.points, other.pose, question.own.pose) > same)
+      rivals.push_back({other, best.rms_mm, ""});
+  }
+  return rivals;
+}
+
+std::string blades_sentence(const RivalQuestion& question, const std::vector<Rival>& rivals) {
+  const Blades blades{Surface(question.design)};
+  const FitPlan& plan = question.plan;
+  const auto fit = [&](std::uint32_t patch, double rms_mm) {
+    return fmt::format("{}, rms {:.4g} {}", blades.name_of(blades.blade_of(patch)), rms_mm / plan.mm_per_unit,
+                       plan.units);
+  };
+  std::string text =
+      fmt::format("the points were fitted to {}; as well they fit", fit(question.own.patch, rivals.front().own_rms_mm));
+  for (const Rival& rival : rivals) {
+    text += fmt::format("{} {} ({})", &rival == &rivals.front() ? "" : ",", fit(rival.fit.patch, rival.fit.rms_mm),
+                        rival.how);
+  }
+  return text;
 }
 
 }  // namespace bladefit

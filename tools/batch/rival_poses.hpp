@@ -31,8 +31,15 @@ struct Rival {
 [[nodiscard]] std::vector<Rival> other_blades(const RivalQuestion& question);
 
 /// Other optima that few points without probing directions fit as well: the fit begins again from poses about its own
-/// and about its start. Empty where there are enough points. Cost: some ten fits of at most kFewPoints points.
+/// and about its start. Empty where there are enough points. Cost: two dozen fits of at most kFewPoints points.
 [[nodiscard]] std::vector<Rival> competing_optima(const RivalQuestion& question);
+
+/// Those of the poses found by a search, the best first, that fit as well as the best one and are another pose.
+[[nodiscard]] std::vector<Rival> rivals_among(const std::vector<PoseFit>& found, const RivalQuestion& question);
+
+/// "the points were fitted to blade 1 (patch 0), rms 0.047 mm, and fit blade 2 (patch 1) as well, rms 0.047 mm (turned
+/// by 120 degrees ...)".
+[[nodiscard]] std::string blades_sentence(const RivalQuestion& question, const std::vector<Rival>& rivals);
 
 /// Below so many points without probing directions a fit may end at another optimum.
 inline constexpr std::size_t kFewPoints = 50;

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "tools/batch/blades.hpp"
 #include "tools/batch/credibility.hpp"
 #include "tools/batch/far_points.hpp"
 #include "tools/batch/side_check.hpp"
@@ -19,10 +18,10 @@ namespace {
 /// Where fewer points than this count they lie well at many poses: what stands against them is that they are few. Of
 /// more points than the second all should.
 constexpr std::uint32_t kLeastWeighed = 8, kFew = 20;
+/// A start that was farther off than this is told [half diagonals].
+constexpr double kFarStart = 0.2;
 /// A pose is far better where its typical distance is this share of the other's.
 constexpr double kFarBetter = 0.5, kMirroredFarBetter = 0.4;
-/// Searched poses that bring the points less far apart are the same [half diagonals].
-constexpr double kSamePose = 0.02;
 
 bool are_too_few(const PoseFit& fitted) { return fitted.counted < kLeastWeighed && fitted.points < kFew; }
 
@@ -52,14 +51,18 @@ const std::vector<PoseFit>& WorldChecks::found_poses() {
   return *found_;
 }
 
-bool WorldChecks::start_is_far() const {
+/// A pose from which the points come to lie, near to the given start; nothing where they do not. Where they are near
+/// already it is the start itself; else some of them are fitted first, whatever their directions: a fit of all of them
+/// from afar would search for feet that face the probe, where there are none.
+std::optional<Pose> WorldChecks::usable_start() const {
   const Surface surface(design_);
   const LocalizerConfig& config = plan_.localizer;
-  if (is_outside_box(surface, points_, config.start)) return true;
+  if (is_outside_box(surface, points_, config.start)) return std::nullopt;
   const bool near = !is_far_from(surface, points_, config.start, config.probe_radius_mm);
-  if (near && !much_smaller_than_design(surface, points_)) return false;
+  if (near && !much_smaller_than_design(surface, points_)) return config.start;
   const PoseFit scouted = fit_candidate(design_, config, some_of(points_, kSearchPoints), config.start);
-  return !is_credible(scouted, scale_mm_);
+  if (!is_credible(scouted, scale_mm_)) return std::nullopt;
+  return near || config.locked != 0 ? config.start : scouted.pose;
 }
 
 StartChoice WorldChecks::choose_start() {
@@ -71,7 +74,9 @@ StartChoice WorldChecks::choose_start() {
     return choice;
   }
   if (plan_.search_start) return searched_start();
-  if (!start_is_far()) {
+  if (const std::optional<Pose> usable = usable_start()) {
+    if (moved_far(*usable)) choice.findings.notes.push_back(fmt::format("Start: it was {} off", moved_by(*usable)));
+    choice.pose = *usable;
     check_directions(choice);
     return choice;
   }
@@ -82,6 +87,10 @@ StartChoice WorldChecks::choose_start() {
        "the points do not come to lie on the design from this start, and locked degrees of freedom "
        "keep it; give a nearer start, or leave --lock out"});
   return choice;
+}
+
+bool WorldChecks::moved_far(const Pose& pose) const {
+  return apart(points_, pose, plan_.localizer.start) > kFarStart * Surface(design_).half_diagonal();
 }
 
 void WorldChecks::check_directions(StartChoice& choice) const {
@@ -162,40 +171,44 @@ VerdictReason WorldChecks::explain_misfit(double best_mm) {
 void WorldChecks::tell_rivals(const PoseFit& fitted, bool searched, Findings& findings) {
   if (plan_.localizer.locked != 0) return;
   const RivalQuestion question{design_, plan_, points_, fitted};
-  std::vector<Rival> rivals = other_blades(question);
-  const Surface surface(design_);
-  const Blades blades(surface);
-  const auto length = [this](double mm) { return fmt::format("{:.4g} {}", mm / plan_.mm_per_unit, plan_.units); };
-  for (const Rival& rival : rivals) {
-    const std::string text = fmt::format("the points fit {} as well: rms {} there, {} on {}",
-                                         blades.name_of(blades.blade_of(rival.fit.patch)), length(rival.fit.rms_mm),
-                                         length(rival.own_rms_mm), blades.name_of(blades.blade_of(fitted.patch)));
-    if (!searched && start_prefers(question, rival)) {
-      findings.notes.push_back(fmt::format("{} ({}); the start pose chose", text, rival.how));
+  if (const std::vector<Rival> blades = other_blades(question); !blades.empty()) {
+    const bool chosen = !searched && std::all_of(blades.begin(), blades.end(), [&question](const Rival& rival) {
+      return start_prefers(question, rival);
+    });
+    if (chosen) {
+      findings.notes.push_back(blades_sentence(question, blades) + "; the start pose chose");
     } else {
+<<<<<<< HEAD
       findings.doubts.push_back({Reason::ambiguous,
                                  fmt::format("{} ({}); give a start near the blade that was probed", text, rival.how)});
+=======
+      findings.doubts.push_back(
+          {ReasonCode::ambiguous, blades_sentence(question, blades) + "; give a start near the blade that was probed"});
+>>>>>>> w/h3
     }
+    return;
   }
-  if (!rivals.empty()) return;
-  rivals = competing_optima(question);
+  std::vector<Rival> rivals = competing_optima(question);
   if (found_ && searched) {
-    const PoseFit& best = found_->front();
-    for (const PoseFit& other : *found_) {
-      const bool as_good =
-          10 * other.counted >= 9 * best.counted && fits_as_well(other.rms_mm, best.rms_mm, best.counted);
-      const bool apart_enough = apart(points_, other.pose, fitted.pose) > kSamePose * surface.half_diagonal();
-      if (as_good && apart_enough) rivals.push_back({other, best.rms_mm, ""});
-    }
+    const std::vector<Rival> found = rivals_among(*found_, question);
+    rivals.insert(rivals.end(), found.begin(), found.end());
   }
   if (rivals.empty()) return;
-  const Rival& rival = rivals.front();
+  const PoseFit& other = rivals.front().fit;
   findings.doubts.push_back(
+<<<<<<< HEAD
       {Reason::ambiguous,
        fmt::format(
            "the points fit another pose as well, {} from the start: rms {} there, {} here; probe more points, with "
            "directions, or give a start by --start pairs",
            moved_by(rival.fit.pose), length(rival.fit.rms_mm), length(rival.own_rms_mm))});
+=======
+      {ReasonCode::ambiguous,
+       fmt::format("the points fit another pose as well, {} from the start: rms {:.4g} {} there, {:.4g} {} here; probe "
+                   "more points, with directions, or give a start by --start pairs",
+                   moved_by(other.pose), other.rms_mm / plan_.mm_per_unit, plan_.units,
+                   rivals.front().own_rms_mm / plan_.mm_per_unit, plan_.units)});
+>>>>>>> w/h3
 }
 
 Findings WorldChecks::findings_of(const PoseFit& fitted, bool searched) {

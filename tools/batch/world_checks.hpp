@@ -44,7 +44,7 @@ class WorldChecks {
   [[nodiscard]] Findings findings_of(const PoseFit& fitted, bool searched);
 
  private:
-  [[nodiscard]] bool start_is_far() const;
+  [[nodiscard]] std::optional<Pose> usable_start() const;
   void check_directions(StartChoice& choice) const;
   [[nodiscard]] StartChoice searched_start();
   [[nodiscard]] const std::vector<PoseFit>& found_poses();
@@ -52,6 +52,7 @@ class WorldChecks {
   [[nodiscard]] VerdictReason explain_misfit(double best_mm);
   [[nodiscard]] bool fits_mirrored(double best_mm);
   void tell_rivals(const PoseFit& fitted, bool searched, Findings& findings);
+  [[nodiscard]] bool moved_far(const Pose& pose) const;
   [[nodiscard]] std::string moved_by(const Pose& pose) const;
 
   const DesignImage& design_;
