@@ -178,13 +178,8 @@ void WorldChecks::tell_rivals(const PoseFit& fitted, bool searched, Findings& fi
     if (chosen) {
       findings.notes.push_back(blades_sentence(question, blades) + "; the start pose chose");
     } else {
-<<<<<<< HEAD
-      findings.doubts.push_back({Reason::ambiguous,
-                                 fmt::format("{} ({}); give a start near the blade that was probed", text, rival.how)});
-=======
       findings.doubts.push_back(
-          {ReasonCode::ambiguous, blades_sentence(question, blades) + "; give a start near the blade that was probed"});
->>>>>>> w/h3
+          {Reason::ambiguous, blades_sentence(question, blades) + "; give a start near the blade that was probed"});
     }
     return;
   }
@@ -196,19 +191,11 @@ void WorldChecks::tell_rivals(const PoseFit& fitted, bool searched, Findings& fi
   if (rivals.empty()) return;
   const PoseFit& other = rivals.front().fit;
   findings.doubts.push_back(
-<<<<<<< HEAD
       {Reason::ambiguous,
-       fmt::format(
-           "the points fit another pose as well, {} from the start: rms {} there, {} here; probe more points, with "
-           "directions, or give a start by --start pairs",
-           moved_by(rival.fit.pose), length(rival.fit.rms_mm), length(rival.own_rms_mm))});
-=======
-      {ReasonCode::ambiguous,
        fmt::format("the points fit another pose as well, {} from the start: rms {:.4g} {} there, {:.4g} {} here; probe "
                    "more points, with directions, or give a start by --start pairs",
                    moved_by(other.pose), other.rms_mm / plan_.mm_per_unit, plan_.units,
                    rivals.front().own_rms_mm / plan_.mm_per_unit, plan_.units)});
->>>>>>> w/h3
 }
 
 Findings WorldChecks::findings_of(const PoseFit& fitted, bool searched) {

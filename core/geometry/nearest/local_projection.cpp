@@ -161,35 +161,6 @@ Projection project_local(const Surface& surface, const Vec3& r, const SurfacePla
   return result;
 }
 
-<<<<<<< HEAD
-=======
-bool falls_over_seam(const Surface& surface, const Projection& projection) {
-  const std::uint32_t ends = surface.span(projection.place.span).ends;
-  const bool over_u = projection.fixed_u && (ends & (projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU)) != 0;
-  return over_u || (projection.fixed_v && (ends & (projection.place.v <= 0.5 ? kSeamAtLowV : kSeamAtHighV)) != 0);
-}
-
-namespace {
-
-/// At a seam the offset may lean across it by this much [half diagonals] for a gap, and by this share for a bend.
-constexpr double kSeamGap = 1e-4, kSeamBend = 0.05;
-
-/// Directions in which a projection is held where the surface does end. One that is held at a seam but leans far across
-/// it is no foot of the whole surface, only of its patch: it stays on an edge.
-int held_at_ends(const Surface& surface, const Projection& projection) {
-  const std::uint32_t ends = surface.span(projection.place.span).ends;
-  const double most = kSeamGap * surface.half_diagonal() + kSeamBend * projection.offset.norm();
-  const auto held = [&](bool fixed, const Vec3& tangent, std::uint32_t seam) {
-    const bool upright = std::abs(projection.offset.dot(tangent)) <= most * tangent.norm();
-    return fixed && !((ends & seam) != 0 && upright) ? 1 : 0;
-  };
-  return held(projection.fixed_u, projection.at.s_u, projection.place.u <= 0.5 ? kSeamAtLowU : kSeamAtHighU) +
-         held(projection.fixed_v, projection.at.s_v, projection.place.v <= 0.5 ? kSeamAtLowV : kSeamAtHighV);
-}
-
-}  // namespace
-
->>>>>>> w/h1
 Foot foot_of(const Surface& surface, const Projection& projection, double probe_radius) {
   Foot foot;
   foot.patch = surface.span(projection.place.span).patch;
