@@ -14,10 +14,11 @@ Reasons reasons_of(const BladeEvidence& e) {
   reasons.add_if(e.unproven > 0, Reason::unproven);
   reasons.add_if(e.lost > 0, Reason::points_lost);
   reasons.add_if(e.refused > 0, Reason::points_refused);
+  reasons.add_if(!e.finished, Reason::unfinished);
+  if (reasons.doubt_the_fit()) return reasons;  // that no point is judged follows from it
   reasons.add_if(e.zones_missed > 0, Reason::zone_not_probed);
   reasons.add_if(e.judged && e.pending > 0, Reason::pending);
   reasons.add_if(e.undecided > 0, Reason::undecided);
-  reasons.add_if(!e.finished, Reason::unfinished);
   return reasons;
 }
 

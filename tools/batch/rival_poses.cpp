@@ -164,6 +164,10 @@ std::vector<Rival> competing_optima(const RivalQuestion& question) {
     step.head<3>() *= 2.0 / length;
     add_rival(question, question.points, question.own.rms_mm, moved(own, step, middle), "", rivals);
   }
+  // One bad point makes the root mean squares alike: most points must fit as well, too.
+  std::erase_if(rivals, [&question](const Rival& rival) {
+    return !fits_as_well(rival.fit.typical_mm, question.own.typical_mm, rival.fit.counted);
+  });
   return rivals;
 }
 
