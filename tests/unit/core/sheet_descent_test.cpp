@@ -10,12 +10,12 @@
 namespace bladefit::testing {
 namespace {
 
-using Outcome = SheetDescent::Outcome;
+using Weighed = SheetDescent::Outcome;
 
-constexpr std::uint32_t kPoints = 60;
+constexpr std::uint32_t kDescending = 60;
 
 LocalizerConfig descending_config() {
-  LocalizerConfig config = config_of(read_case("dtmb4119"), kPoints);
+  LocalizerConfig config = config_of(read_case("dtmb4119"), kDescending);
   config.mode = FitMode::minimax;
   return config;
 }
@@ -24,12 +24,12 @@ LocalizerConfig descending_config() {
 struct Descending {
   Descending()
       : parts(reference_design("dtmb4119").image(), descending_config()),
-        rows(BoundRows::doubles_for(kPoints)),
-        places(KeptSheets::kPlacesPerPoint * kPoints),
+        rows(BoundRows::doubles_for(kDescending)),
+        places(KeptSheets::kPlacesPerPoint * kDescending),
         program(parts->problem, parts->plan),
         descent(parts->problem) {
-    program.attach(rows.data(), kPoints);
-    descent.attach(places.data(), kPoints);
+    program.attach(rows.data(), kDescending);
+    descent.attach(places.data(), kDescending);
     parts.store(thinned(read_case("dtmb4119"), 0, 45));
     parts.fit();
     parts->selection.hold(parts->store);
@@ -54,7 +54,7 @@ struct Descending {
     if (!counts) return program.skip_row(i);
     program.set_row(i, parts->finder.row(m, Vec6::Zero()));
   }
-  [[nodiscard]] Outcome weigh(bool proof, double merit) {
+  [[nodiscard]] Weighed weigh(bool proof, double merit) {
     return descent.weigh(proof, merit, pose, parts->store.size());
   }
   void shift(double x_mm) { pose.translation.x() += x_mm; }
@@ -108,18 +108,18 @@ TEST(SheetDescent, TracksFromWhatIsKeptUntilAStepIsAccepted) {
 TEST(SheetDescent, OtherFeetCountWhereTheMeritHasNotRisen) {
   Descending d;
   d.sweep();
-  EXPECT_EQ(d.weigh(false, 1.0), Outcome::same) << "the first pose";
+  EXPECT_EQ(d.weigh(false, 1.0), Weighed::same) << "the first pose";
   const Pose first = d.pose;
   d.shift(0.1);
   d.sweep();
-  EXPECT_EQ(d.weigh(false, 7.0), Outcome::same) << "nothing was sought";
+  EXPECT_EQ(d.weigh(false, 7.0), Weighed::same) << "nothing was sought";
   EXPECT_TRUE(same_bits(d.descent.proven_pose(), first));
   d.sweep();
   d.note(3, true);
-  EXPECT_EQ(d.weigh(true, 0.9), Outcome::adopted);
+  EXPECT_EQ(d.weigh(true, 0.9), Weighed::adopted);
   EXPECT_TRUE(same_bits(d.descent.proven_pose(), d.pose));
   d.sweep();
-  EXPECT_EQ(d.weigh(true, 0.8), Outcome::same) << "all are those of before";
+  EXPECT_EQ(d.weigh(true, 0.8), Weighed::same) << "all are those of before";
 }
 
 TEST(SheetDescent, GoesBackAndHoldsFeetThatWouldRaiseTheMerit) {
@@ -132,7 +132,7 @@ TEST(SheetDescent, GoesBackAndHoldsFeetThatWouldRaiseTheMerit) {
   d.shift(0.1);
   d.sweep();
   d.note(3, true);
-  EXPECT_EQ(d.weigh(true, 1.5), Outcome::back);
+  EXPECT_EQ(d.weigh(true, 1.5), Weighed::back);
   EXPECT_TRUE(same_bits(d.descent.proven_pose(), proven));
   EXPECT_EQ(d.kept_place(3), place);
   d.pose = proven;
@@ -141,13 +141,13 @@ TEST(SheetDescent, GoesBackAndHoldsFeetThatWouldRaiseTheMerit) {
 
   d.sweep();
   d.note(3, true);
-  EXPECT_EQ(d.weigh(true, 1.5), Outcome::back) << "it is held already: nothing is held any more";
+  EXPECT_EQ(d.weigh(true, 1.5), Weighed::back) << "it is held already: nothing is held any more";
   d.sweep();
   d.note(3, true);
-  EXPECT_EQ(d.weigh(true, 1.5), Outcome::adopted) << "whatever it costs";
+  EXPECT_EQ(d.weigh(true, 1.5), Weighed::adopted) << "whatever it costs";
   d.sweep();
-  EXPECT_EQ(d.weigh(true, 1.2), Outcome::stuck) << "worse than where it began";
-  EXPECT_EQ(d.descent.let_go(d.parts->store.size()), Outcome::stuck) << "once only";
+  EXPECT_EQ(d.weigh(true, 1.2), Weighed::stuck) << "worse than where it began";
+  EXPECT_EQ(d.descent.let_go(d.parts->store.size()), Weighed::stuck) << "once only";
 }
 
 TEST(SheetDescent, EndsHoweverOftenFeetChange) {
@@ -155,7 +155,7 @@ TEST(SheetDescent, EndsHoweverOftenFeetChange) {
   d.sweep();
   (void)d.weigh(true, 1.0);
   int rounds = 0;
-  for (Outcome outcome = Outcome::same; outcome != Outcome::stuck && rounds < 1000; ++rounds) {
+  for (Weighed outcome = Weighed::same; outcome != Weighed::stuck && rounds < 1000; ++rounds) {
     d.sweep();
     d.note(static_cast<std::uint32_t>(rounds) % 50, true);
     outcome = d.weigh(true, 2.0);

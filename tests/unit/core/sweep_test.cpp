@@ -27,7 +27,13 @@ struct Sweeping {
   /// Ends a sweep with a step of this length [half diagonals].
   void end(double lengths) {
     sweep.set_last_step(step(lengths));
-    sweep.end(!sweep.last_step_counts());
+    if (!sweep.last_step_counts()) sweep.prove_next();
+    sweep.end();
+  }
+  /// The sweep that begins next, or is under way, is to prove every foot.
+  void prove() {
+    sweep.prove_next();
+    sweep.end();
   }
   void count(bool changed, bool proven) {
     Measurement m;
@@ -78,13 +84,13 @@ TEST(Sweep, SearchesEveryFootOnceTheLastStepWasShort) {
 TEST(Sweep, SearchesEveryFootWhenItIsToProve) {
   Sweeping s;
   s.begin(0.0);
-  s.sweep.prove();
+  s.prove();
   EXPECT_EQ(s.search(), Search::always);
 }
 
 TEST(Sweep, SearchesNoFootTwiceWhileThePoseRests) {
   Sweeping s;
-  s.sweep.prove();
+  s.prove();
   s.begin(0.0);
   s.end(0.0);
   for (int k = 0; k < 2; ++k) {
@@ -101,7 +107,7 @@ TEST(Sweep, SearchesNoFootTwiceWhileThePoseRests) {
 
 TEST(Sweep, SearchesAgainAfterASearchThatMetItsCap) {
   Sweeping s;
-  s.sweep.prove();
+  s.prove();
   s.begin(0.0);
   s.count(false, false);
   EXPECT_EQ(s.sweep.unproven(), 1U);
@@ -143,7 +149,7 @@ TEST(Sweep, BeginsAgainWithASweepThatTakesRows) {
   EXPECT_EQ(s.sweep.number(), 2U);
   EXPECT_EQ(s.search(), Search::always);
   s.sweep.begin_again();
-  s.sweep.end(false);
+  s.sweep.end();
   s.begin(0.0);
   EXPECT_EQ(s.sweep.number(), 1U) << "no step is compared with those before";
   EXPECT_EQ(s.search(), Search::if_doubtful);
@@ -152,7 +158,7 @@ TEST(Sweep, BeginsAgainWithASweepThatTakesRows) {
 
 TEST(Sweep, ForgetsEverythingWhenARefinementBegins) {
   Sweeping s;
-  s.sweep.prove();
+  s.prove();
   s.begin(0.0);
   s.count(true, false);
   s.sweep.set_last_pose(moved(Pose(), s.step(1.0), s.problem.frame));
@@ -164,7 +170,7 @@ TEST(Sweep, ForgetsEverythingWhenARefinementBegins) {
   EXPECT_EQ(s.sweep.last_step(), Vec6(Vec6::Zero()));
   EXPECT_EQ(s.sweep.last_pose().translation, Vec3(Vec3::Zero()));
   EXPECT_EQ(s.search(), Search::if_doubtful);
-  s.sweep.prove();
+  s.prove();
   s.begin(0.0);
   EXPECT_EQ(s.search(), Search::always) << "what was proven before is not";
 }
