@@ -65,7 +65,8 @@ std::uint32_t take_in(LocalizerParts& p, const StoredPoint& point, const Measure
   if (!p.store.full()) {
     p.store.append(point);
   } else {
-    const bool of_edge = p.problem.region_of(m.foot) == Region::leading_edge && !p.selection.left_out(point, m.foot);
+    const bool judged = !p.selection.left_out(point, m.foot) || m.foot.border == FootBorder::joint;
+    const bool of_edge = judged && p.problem.region_of(m.foot) == Region::leading_edge;
     if (of_edge) index = p.store.next_to_evict([&p](std::uint32_t i) { return p.stream_optimum.holds(i); });
     if (index == p.store.size()) {
       p.sums.take_in_passing(point, m, p.estimate.pose());

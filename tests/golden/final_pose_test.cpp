@@ -61,7 +61,7 @@ void expect_says(const Outcome& outcome, const std::string& what) {
 
 TEST_F(FinalPose, PointsInFrontOfASharpLeadingEdgeAreOutAndCut) {
   for (const double y : {20.0, 50.0, 80.0}) points_.emplace_back(-0.3, y, 0.0);
-  for (const std::string& mode : {"least_squares", "minimax", "constrained"}) {
+  for (const char* mode : {"least_squares", "minimax", "constrained"}) {
     const Outcome outcome = localize({"--mode", mode});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
     expect_says(outcome, "3 leading-edge points out");

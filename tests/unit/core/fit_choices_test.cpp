@@ -207,8 +207,8 @@ TEST(CoreStart, AFarStartEndsAtTheSamePose) {
   }
 }
 
-/// Where a point counts it is drawn over an edge, and where it does not it comes back: it must come to rest outside of the
-/// fit, the pose be the optimum of the others, and the point be judged by its foot there.
+/// Where a point counts it is drawn over an edge, and where it does not it comes back: it must come to rest outside of
+/// the fit, the pose be the optimum of the others, and the point be judged by its foot there.
 TEST(CoreEdges, APointThatWouldComeAndGoIsLeftOutOfTheFitAndJudged) {
   const ReferenceCase c = read_case("arl_fan");
   const CompiledDesign& design = reference_design("arl_fan");
