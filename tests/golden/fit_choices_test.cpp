@@ -126,6 +126,13 @@ TEST_F(FitChoices, WrongOnesAreRefused) {
   expect_refusal({"--start", written("line.csv", header + "0,0,0,0,0,0\n1,0,0,1,0,0\n2,0,0,2,0,0\n")},
                  {"line.csv", "in one line"});
   expect_refusal({"--start", written("word.csv", header + "0,0,zero,0,0,0\n")}, {"word.csv:2", "column z", "'zero'"});
+  expect_refusal(
+      {"--start", written("apart.csv", header + "0,0,0,0,0,0\n100,0,0,100,0,0\n0,100,0,0,0,100\n0,0,50,0,50,0\n")},
+      {"apart.csv", "do not fit each other", "line 3 "});
+  expect_refusal({"--start", "search", "--lock", "tx"}, {"--start search", "--lock"});
+  expect_refusal({"--axis", "1,2,3"}, {"--axis", "x0,y0,z0,i,j,k"});
+  expect_refusal({"--tip-radius", "0"}, {"--tip-radius: 0"});
+  expect_refusal({"--probe-radius", "500"}, {"--probe-radius", "larger than the blade"});
   expect_refusal({"--start", written("head.csv", "x,y,z\n0,0,0\n")}, {"head.csv:1", "design_x"});
 }
 

@@ -150,19 +150,20 @@ std::vector<Rival> competing_optima(const RivalQuestion& question) {
                                     [](const ProbePoint& p) { return Vec3(p.approach.data()).squaredNorm() > 0.5; });
   const bool few = question.points.size() < kFewPoints;
   if (!few || (directed && question.plan.localizer.use_approach) || question.points.size() <= 6) return {};
-  const Surface surface(question.design);
-  const double length = surface.half_diagonal();
-  const Pose& own = question.own.pose;
-  const double was_off = apart(question.points, question.plan.localizer.start, own);
+  // Rivals are least-squares fits: in another mode they are rivals of the one that belongs to its pose.
+  const PoseFit own = fit_candidate(question.design, question.plan.localizer, question.points, question.own.pose);
+  const double length = Surface(question.design).half_diagonal();
+  const double was_off = apart(question.points, question.plan.localizer.start, own.pose);
   const double off = std::clamp(was_off, kLeastOff * length, kMostOff * length);
   Vec3 middle = Vec3::Zero();
-  for (const ProbePoint& point : question.points) middle += apply(own, Vec3(point.position.data()));
+  for (const ProbePoint& point : question.points) middle += apply(own.pose, Vec3(point.position.data()));
   middle /= static_cast<double>(question.points.size());
+  const RivalQuestion about_own{question.design, question.plan, question.points, own};
   std::vector<Rival> rivals;
   for (const Vec6& direction : start_directions()) {
     Vec6 step = off * direction;
     step.head<3>() *= 2.0 / length;
-    add_rival(question, question.points, question.own.rms_mm, moved(own, step, middle), "", rivals);
+    add_rival(about_own, question.points, own.rms_mm, moved(own.pose, step, middle), "", rivals);
   }
   // One bad point makes the root mean squares alike: most points must fit as well, too.
   std::erase_if(rivals, [&question](const Rival& rival) {

@@ -169,5 +169,27 @@ TEST(FitOptions, TheRestIsApplied) {
   EXPECT_FALSE(config.use_approach);
 }
 
+TEST(FitOptions, AnAxisIsALetterOrAPointAndADirection) {
+  ShaftAxis axis;
+  ASSERT_FALSE(parse_axis("z", axis));
+  EXPECT_EQ(axis.direction, Vec3(0, 0, 1));
+  ASSERT_FALSE(parse_axis("1, 2,3,0,0,-4", axis));
+  EXPECT_EQ(axis.point, Vec3(1, 2, 3));
+  EXPECT_EQ(axis.direction, Vec3(0, 0, -1));
+  EXPECT_DOUBLE_EQ(axis.radius_of(Vec3(4, 6, 100)), 5);
+  for (const char* wrong :
+       {"", "w", "xy", "1,2,3", "1,2,3,0,0", "1,2,3,0,0,1,1", "1,2,3,0,0,nan", "1,2,3,a,0,1", "1,2,3,0,0,0"})
+    EXPECT_TRUE(parse_axis(wrong, axis)) << wrong;
+  EXPECT_EQ(axis.point, Vec3(1, 2, 3));
+}
+
+TEST(FitOptions, TheWordForASearchIsNoPath) {
+  FitSettings settings;
+  ASSERT_EQ(load("[fit]\nstart = \"search\"\n", settings).message, "");
+  EXPECT_EQ(settings.start, "search");
+  ASSERT_EQ(load("[fit]\nstart = \"pairs.csv\"\n", settings).message, "");
+  EXPECT_NE(settings.start, "pairs.csv");
+}
+
 }  // namespace
 }  // namespace bladefit
