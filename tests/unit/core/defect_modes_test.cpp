@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/defect_fits.hpp"
+#include "tests/support/localizer_fixtures.hpp"
 
 namespace bladefit::testing {
 namespace {

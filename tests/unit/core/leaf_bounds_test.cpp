@@ -120,15 +120,15 @@ TEST_P(LeafBounds, SufficeForPointsNearTheSurface) {
   const CompiledDesign& design = reference_design(GetParam());
   std::mt19937_64 random(7);
   int cut = 0;
-  constexpr int kPoints = 2000;
-  for (int k = 0; k < kPoints; ++k) {
+  constexpr int kTried = 2000;
+  for (int k = 0; k < kTried; ++k) {
     const SurfacePlace place = random_place(design.surface(), random);
     const SurfacePoint at = design.surface().evaluate(place);
     const Vec3 r = at.s + uniform(random, 0, 1e-3) * design.size() * design.surface().normal(place, at);
     cut += project_global(design.surface(), {r, Vec3::Zero(), 0.0}, nullptr).pieces > 0 ? 1 : 0;
   }
-  RecordProperty("cut_share", std::to_string(static_cast<double>(cut) / kPoints));
-  EXPECT_LT(cut, kPoints / 4) << "searches that had to cut leaves";
+  RecordProperty("cut_share", std::to_string(static_cast<double>(cut) / kTried));
+  EXPECT_LT(cut, kTried / 4) << "searches that had to cut leaves";
 }
 
 INSTANTIATE_TEST_SUITE_P(Designs, LeafBounds, ::testing::Values("arl_fan", "dtmb4119", "pnsy_sub"),
