@@ -181,6 +181,24 @@ std::string tolerance_lines(const Result& result) {
   return text;
 }
 
+/// "Radii: from the design's x axis, R 152.4 mm (--axis names another)".
+std::string radius_line(const Result& result) {
+  if (!(result.tip_radius > 0.0)) return "";
+  const ShaftAxis& axis = result.axis;
+  constexpr std::string_view kNames = "xyz";
+  std::string name;
+  for (int k = 0; k < 3; ++k) {
+    if (axis.point.isZero() && axis.direction == Vec3(Vec3::Unit(k)))
+      name = fmt::format("the design's {} axis", kNames[static_cast<std::size_t>(k)]);
+  }
+  if (name.empty()) {
+    const Vec3 point = axis.point / result.mm_per_unit, &d = axis.direction;
+    name = fmt::format("the axis through ({:g}, {:g}, {:g}) along ({:g}, {:g}, {:g})", point[0], point[1], point[2],
+                       d[0], d[1], d[2]);
+  }
+  return fmt::format("Radii: from {}, R {}; --axis names another\n", name, length(result, result.tip_radius));
+}
+
 }  // namespace
 
 std::string operator_summary(const Result& result) {
@@ -190,7 +208,8 @@ std::string operator_summary(const Result& result) {
   text += fit_lines(result) + optimum_line(result) + fit_remarks(result);
   if (result.details->unproven > 0)
     text += fmt::format("{} feet could not be proven the nearest: do not rely on this fit\n", result.details->unproven);
-  return text + point_lines(result) + (result.doubts.empty() ? tolerance_lines(result) : std::string());
+  return text + point_lines(result) + radius_line(result) +
+         (result.doubts.empty() ? tolerance_lines(result) : std::string());
 }
 
 }  // namespace bladefit
