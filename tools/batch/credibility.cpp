@@ -6,7 +6,7 @@ namespace bladefit {
 namespace {
 
 /// [scale] The largest typical distance of points of this design, and that above which a wrong pose is as likely.
-constexpr double kCredible = 0.01, kSuspect = 0.005;
+constexpr double kCredible = 0.01, kSuspect = 0.008;
 constexpr std::uint32_t kLeastPoints = 6;
 
 }  // namespace

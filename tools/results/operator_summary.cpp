@@ -251,6 +251,24 @@ std::string tolerance_lines(const Result& result) {
   return text;
 }
 
+/// "Radii: from the design's x axis, R 152.4 mm (--axis names another)".
+std::string radius_line(const Result& result) {
+  if (!(result.tip_radius > 0.0)) return "";
+  const ShaftAxis& axis = result.axis;
+  constexpr std::string_view kNames = "xyz";
+  std::string name;
+  for (int k = 0; k < 3; ++k) {
+    if (axis.point.isZero() && axis.direction == Vec3(Vec3::Unit(k)))
+      name = fmt::format("the design's {} axis", kNames[static_cast<std::size_t>(k)]);
+  }
+  if (name.empty()) {
+    const Vec3 point = axis.point / result.mm_per_unit, &d = axis.direction;
+    name = fmt::format("the axis through ({:g}, {:g}, {:g}) along ({:g}, {:g}, {:g})", point[0], point[1], point[2],
+                       d[0], d[1], d[2]);
+  }
+  return fmt::format("Radii: from {}, R {}; --axis names another\n", name, length(result, result.tip_radius));
+}
+
 }  // namespace
 
 std::string operator_summary(const Result& result) {
@@ -259,7 +277,7 @@ std::string operator_summary(const Result& result) {
   for (const std::string& note : result.notes) text += note + "\n";
   text += fit_lines(result);
   if (decided) text += optimum_line(result);
-  text += fit_remarks(result) + point_lines(result);
+  text += fit_remarks(result) + point_lines(result) + radius_line(result);
   return decided ? text + tolerance_lines(result) : text;
 }
 

@@ -54,10 +54,10 @@ Mat3 turn(double degrees, const Vec3& axis) {
   return rotation_exp(degrees * std::numbers::pi / 180.0 * axis.normalized());
 }
 
-void expect_undecided(const Result& result, ReasonCode code, const std::string& word) {
-  ASSERT_EQ(result.doubts.size(), 1U);
-  EXPECT_EQ(result.doubts.front().code, code) << result.doubts.front().text;
-  EXPECT_NE(result.doubts.front().text.find(word), std::string::npos) << result.doubts.front().text;
+void expect_undecided(const Result& result, Reason code, const std::string& word) {
+  ASSERT_EQ(result.verdict.reasons.size(), 1U);
+  EXPECT_EQ(result.verdict.reasons.front().code, code) << result.verdict.reasons.front().text;
+  EXPECT_NE(result.verdict.reasons.front().text.find(word), std::string::npos) << result.verdict.reasons.front().text;
   EXPECT_EQ(exit_code_of(result), 4);
   for (const ResultPoint& point : result.points) {
     EXPECT_NE(point.state, PointState::in);
@@ -68,7 +68,7 @@ void expect_undecided(const Result& result, ReasonCode code, const std::string& 
 
 TEST(WorldChecks, SayNothingOfPointsThatBelong) {
   const Result result = fitted(blade_points());
-  EXPECT_TRUE(result.doubts.empty());
+  EXPECT_TRUE(result.verdict.reasons.empty());
   EXPECT_TRUE(result.notes.empty());
 }
 
@@ -78,8 +78,8 @@ TEST(WorldChecks, NameTheFactorOfAnotherUnit) {
   for (const auto& [factor, words] : factors) {
     const double began = thread_cpu_s();
     const Result result = fitted(mapped(blade_points(), Mat3::Identity(), Vec3::Zero(), factor));
-    expect_undecided(result, ReasonCode::wrong_units, words);
-    EXPECT_NE(result.doubts.front().text.find("--units"), std::string::npos);
+    expect_undecided(result, Reason::wrong_units, words);
+    EXPECT_NE(result.verdict.reasons.front().text.find("--units"), std::string::npos);
     EXPECT_LT(thread_cpu_s() - began, 10.0);
   }
 }
@@ -91,14 +91,14 @@ TEST(WorldChecks, ASmallPartIsNoOtherUnit) {
   std::erase_if(points, [&middle](const ProbePoint& p) { return (Vec3(p.position.data()) - middle).norm() > 20.0; });
   ASSERT_TRUE(much_smaller_than_design(Surface(propeller_blade().design), points));
   const Result result = fitted(points);
-  EXPECT_TRUE(result.doubts.empty()) << result.doubts.front().text;
+  EXPECT_TRUE(result.verdict.fit_decided()) << result.verdict.reasons.front().text;
 }
 
 TEST(WorldChecks, NameMirroredPoints) {
   for (int axis = 0; axis < 3; axis += 2) {
     Mat3 mirror = Mat3::Identity();
     mirror(axis, axis) = -1.0;
-    expect_undecided(fitted(mapped(blade_points(), mirror, Vec3::Zero())), ReasonCode::mirrored, "mirrored");
+    expect_undecided(fitted(mapped(blade_points(), mirror, Vec3::Zero())), Reason::mirrored, "mirrored");
   }
 }
 
@@ -116,7 +116,7 @@ TEST(WorldChecks, AFarStartIsSearchedAndTold) {
     const double began = thread_cpu_s();
     const Result result = fitted(mapped(points, rotation, shift));
     EXPECT_LT(thread_cpu_s() - began, 10.0);
-    ASSERT_TRUE(result.doubts.empty()) << result.doubts.front().text;
+    ASSERT_TRUE(result.verdict.reasons.empty()) << result.verdict.reasons.front().text;
     ASSERT_EQ(result.notes.size(), 1U);
     EXPECT_NE(result.notes.front().find("off"), std::string::npos) << result.notes.front();
     ASSERT_EQ(result.points.size(), wanted.points.size());
@@ -132,7 +132,7 @@ TEST(WorldChecks, PointsOfAnotherPartAreNotDecided) {
   // A blade of another shape, made as large as this one.
   const std::vector<ProbePoint> points =
       mapped(read_subset_points(other, "101"), Mat3::Identity(), Vec3::Zero(), 140.0 / 1900.0);
-  expect_undecided(fitted(points), ReasonCode::far_start, "no pose was found");
+  expect_undecided(fitted(points), Reason::far_start, "no pose was found");
 }
 
 TEST(WorldChecks, DirectionsThatRunOutOfTheMaterialAreNamed) {
@@ -140,14 +140,14 @@ TEST(WorldChecks, DirectionsThatRunOutOfTheMaterialAreNamed) {
   for (ProbePoint& point : points) {
     for (double& x : point.approach) x = -x;
   }
-  expect_undecided(fitted(points), ReasonCode::mirrored, "probing direction");
+  expect_undecided(fitted(points), Reason::mirrored, "probing direction");
 }
 
 TEST(WorldChecks, LockedDegreesOfFreedomAreNotSearched) {
   FitPlan plan = judging_plan();
   plan.localizer.locked = kLockTx;
   const std::vector<ProbePoint> points = mapped(blade_points(), Mat3::Identity(), Vec3(0, 2000, 0));
-  expect_undecided(fitted(points, plan), ReasonCode::far_start, "--lock");
+  expect_undecided(fitted(points, plan), Reason::far_start, "--lock");
 }
 
 /// Three blades, one a patch.
@@ -169,12 +169,12 @@ TEST(WorldChecks, ThePoseChoosesTheBladeOrNobodyDoes) {
   FitPlan plan = judging_plan();
   const std::vector<ProbePoint> points = mapped(blade_points(), turn(120, Vec3::UnitX()), Vec3::Zero());
   const Result near = fit_points(propeller().image(), plan, points, "points.csv").result;
-  EXPECT_TRUE(near.doubts.empty());
+  EXPECT_TRUE(near.verdict.reasons.empty());
   ASSERT_EQ(near.notes.size(), 1U);
   for (const char* word : {"fitted to blade 2 (patch 1)", "blade 1 (patch 0)", "blade 3 (patch 2)", "start pose"})
     EXPECT_NE(near.notes.front().find(word), std::string::npos) << word << " in " << near.notes.front();
   plan.search_start = true;
-  expect_undecided(fit_points(propeller().image(), plan, points, "points.csv").result, ReasonCode::ambiguous,
+  expect_undecided(fit_points(propeller().image(), plan, points, "points.csv").result, Reason::ambiguous,
                    "blade 3");
 }
 
@@ -184,13 +184,14 @@ TEST(WorldChecks, AFitMadeElsewhereIsDoubted) {
   const std::vector<ProbePoint> points = mapped(blade_points(), turn(65, Vec3::UnitX()), Vec3::Zero());
   FitReport report;
   report.status = FitStatus::converged;
+  report.determined = 6;
   std::vector<Verdict> verdicts(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
     verdicts[k].sequence = points[k].sequence;
     verdicts[k].state = PointState::in;
   }
-  const Result result = result_of(study.design, judging_plan(), points, report, verdicts, "session");
-  expect_undecided(result, ReasonCode::far_start, "--start");
+  const Result result = result_of(study.design, judging_plan(), points, report, verdicts, {}, "session");
+  expect_undecided(result, Reason::far_start, "--start");
 }
 
 }  // namespace
