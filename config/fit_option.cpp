@@ -46,9 +46,8 @@ void apply_mpe(const S& s, double /*mm*/, C& c) {
   constexpr double kMmPerMicrometre = 1e-3;
   // A largest error is taken for the limit of a rectangular distribution (ISO 14253-2).
   c.decision.probe_mm = s.mpe->constant_um * kMmPerMicrometre / std::sqrt(3.0);
-  c.decision.probe_per_mm = s.mpe->length_mm_per_um > 0.0
-                                ? kMmPerMicrometre / (s.mpe->length_mm_per_um * std::sqrt(3.0))
-                                : 0.0;
+  c.decision.probe_per_mm =
+      s.mpe->length_mm_per_um > 0.0 ? kMmPerMicrometre / (s.mpe->length_mm_per_um * std::sqrt(3.0)) : 0.0;
 }
 
 // An option is applied after those above it.
@@ -114,20 +113,22 @@ constexpr std::array kOptions{
     FitOption{"ignore_approach", FlagOption{&S::ignore_approach},
               [](const S& s, double, C& c) { c.use_approach = !*s.ignore_approach; },
               "do not use the probing directions i,j,k, which choose the side of the blade", "false", true},
-    FitOption{"decision", ChoiceOption<DecisionRule>{&S::decision, kDecisionRuleWords},
-              [](const S& s, double, C& c) { c.decision.rule = *s.decision; },
-              "simple (default): a distance is compared with its tolerance as it is; guarded: a point is in or out only "
-              "where the expanded uncertainty leaves no doubt (ISO 14253-1:2017), else undecided; it needs the probe "
-              "uncertainty or the mpe",
-              "\"simple\""},
+    FitOption{
+        "decision", ChoiceOption<DecisionRule>{&S::decision, kDecisionRuleWords},
+        [](const S& s, double, C& c) { c.decision.rule = *s.decision; },
+        "simple (default): a distance is compared with its tolerance as it is; guarded: a point is in or out only "
+        "where the expanded uncertainty leaves no doubt (ISO 14253-1:2017), else undecided; it needs the probe "
+        "uncertainty or the mpe",
+        "\"simple\""},
     FitOption{"probe_uncertainty", length_above_0(&S::probe_uncertainty),
               [](const S& s, double mm, C& c) { c.decision.probe_mm = *s.probe_uncertainty * mm; },
               "standard uncertainty of a distance that comes from the probe, in units", "0.002"},
-    FitOption{"mpe", MpeOption{&S::mpe}, apply_mpe,
-              "A+L/K of the machine's data sheet, for example 1.9+L/300: its largest permissible error is A micrometres "
-              "and L/K, L in mm: here the distance of a point from the middle of the design. The standard uncertainty is "
-              "taken as that error / sqrt(3)",
-              "\"1.9+L/300\""},
+    FitOption{
+        "mpe", MpeOption{&S::mpe}, apply_mpe,
+        "A+L/K of the machine's data sheet, for example 1.9+L/300: its largest permissible error is A micrometres "
+        "and L/K, L in mm: here the distance of a point from the middle of the design. The standard uncertainty is "
+        "taken as that error / sqrt(3)",
+        "\"1.9+L/300\""},
     FitOption{"coverage_factor", NumberOption{&S::coverage_factor, 0, 10, true},
               [](const S& s, double, C& c) { c.decision.coverage_factor = *s.coverage_factor; },
               "k of the expanded uncertainty U = k u (default 2: some 95 %)", "2.0"},

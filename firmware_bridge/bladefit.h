@@ -83,18 +83,21 @@ enum {
   BLADEFIT_LOCK_RY = 16, /* theta */
   BLADEFIT_LOCK_RZ = 32  /* phi */
 };                       /* bladefit_config.locked, added up: keep their value of the start pose */
-enum { BLADEFIT_INTERIOR = 0, BLADEFIT_EDGE = 1, BLADEFIT_CORNER = 2 };                  /* kind */
-enum { BLADEFIT_REST = 0, BLADEFIT_LEADING_EDGE = 1 };                                   /* region */
+enum { BLADEFIT_INTERIOR = 0, BLADEFIT_EDGE = 1, BLADEFIT_CORNER = 2 }; /* kind */
+enum { BLADEFIT_REST = 0, BLADEFIT_LEADING_EDGE = 1 };                  /* region */
 enum {
-  BLADEFIT_PENDING = 0,   /* the fit is not determined well enough to judge the point */
-  BLADEFIT_IN = 1,        /* within its tolerance */
-  BLADEFIT_OUT = 2,       /* beyond it */
-  BLADEFIT_REJECTED = 3,  /* left out of fit and judgement */
-  BLADEFIT_UNDECIDED = 4  /* BLADEFIT_GUARDED: nearer to its tolerance than its expanded uncertainty */
-};                        /* state */
-enum { BLADEFIT_SIMPLE = 0, BLADEFIT_GUARDED = 1 }; /* bladefit_config.decision: distances are compared as they are, or
-                                                       with their expanded uncertainty (ISO 14253-1:2017) */
-enum { BLADEFIT_NO_ACTION = 0, BLADEFIT_CUT = 1, BLADEFIT_WELD = 2 };                    /* action */
+  BLADEFIT_PENDING = 0,  /* the fit is not determined well enough to judge the point */
+  BLADEFIT_IN = 1,       /* within its tolerance */
+  BLADEFIT_OUT = 2,      /* beyond it */
+  BLADEFIT_REJECTED = 3, /* left out of fit and judgement */
+  BLADEFIT_UNDECIDED = 4 /* BLADEFIT_GUARDED: nearer to its tolerance than its expanded uncertainty */
+};                       /* state */
+enum {
+  BLADEFIT_SIMPLE = 0,
+  BLADEFIT_GUARDED = 1
+}; /* bladefit_config.decision: distances are compared as they are, or
+      with their expanded uncertainty (ISO 14253-1:2017) */
+enum { BLADEFIT_NO_ACTION = 0, BLADEFIT_CUT = 1, BLADEFIT_WELD = 2 }; /* action */
 enum {
   BLADEFIT_LEFT_OUT_NONE = 0,
   BLADEFIT_LEFT_OUT_WINDOW = 1, /* the foot at the start pose is outside the window */

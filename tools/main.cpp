@@ -22,7 +22,8 @@ constexpr const char* kFooter =
     "A first try:\n"
     "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1 --json "
     "out.json\n"
-    "Exit codes: 0 done, in tolerance or nothing to judge, 1 the blade is out of tolerance, 2 wrong use or bad input, 3 "
+    "Exit codes: 0 done, in tolerance or nothing to judge, 1 the blade is out of tolerance, 2 wrong use or bad input, "
+    "3 "
     "device or I/O failure, 4 not decided: the reasons stand below the verdict.";
 
 /// Takes the command line apart and runs what it asks for; returns the exit code.

@@ -62,16 +62,16 @@ class Reasons {
 
 /// What a verdict on the blade is made from.
 struct BladeEvidence {
-  bool converged = false;   ///< the fit is at an optimum, every foot proven
-  bool infeasible = false;  ///< proven: no pose meets the tolerances
+  bool converged = false;                  ///< the fit is at an optimum, every foot proven
+  bool infeasible = false;                 ///< proven: no pose meets the tolerances
   std::uint32_t determined = 0, free = 6;  ///< degrees of freedom: those that the points determine, and all not locked
   std::uint32_t unproven = 0;              ///< feet
   bool judged = false;                     ///< a tolerance is set
   std::uint32_t out = 0, pending = 0, undecided = 0;  ///< points
   std::uint32_t lost = 0, refused = 0;                ///< points
-  std::uint32_t zones_missed = 0;  ///< zones of the leading edge with too few judged points
-  bool finished = true;            ///< no point is to come
-  Reasons doubts;                  ///< what was found against the fit elsewhere
+  std::uint32_t zones_missed = 0;                     ///< zones of the leading edge with too few judged points
+  bool finished = true;                               ///< no point is to come
+  Reasons doubts;                                     ///< what was found against the fit elsewhere
 };
 
 struct BladeVerdict {

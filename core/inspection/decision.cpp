@@ -12,8 +12,7 @@ PointState decide(DecisionRule rule, const JudgedDistance& judged) {
   if (std::isinf(judged.tolerance)) return PointState::in;
   const double size = std::abs(judged.distance), limit = judged.tolerance + judged.touching;
   if (size - judged.expanded > limit) return PointState::out;
-  if (rule == DecisionRule::guarded)
-    return size + judged.expanded <= limit ? PointState::in : PointState::undecided;
+  if (rule == DecisionRule::guarded) return size + judged.expanded <= limit ? PointState::in : PointState::undecided;
   if (!(judged.uncertainty < kMostUncertain * judged.tolerance)) return PointState::pending;
   return size > limit ? PointState::out : PointState::in;
 }

@@ -20,9 +20,9 @@ inline constexpr std::array<std::string_view, 2> kDecisionRuleWords = {"simple",
 
 constexpr std::string_view word_of(DecisionRule rule) { return kDecisionRuleWords[static_cast<std::size_t>(rule)]; }
 
-/// The rule, and what it needs to know of the probe. The standard uncertainty of a distance that comes from the probe is
-/// probe_mm + probe_per_mm L, where L is how far the point is from the middle of the design: what a constant part of the
-/// error moves, the fit takes up.
+/// The rule, and what it needs to know of the probe. The standard uncertainty of a distance that comes from the probe
+/// is probe_mm + probe_per_mm L, where L is how far the point is from the middle of the design: what a constant part of
+/// the error moves, the fit takes up.
 struct Decision {
   DecisionRule rule = DecisionRule::simple;
   double coverage_factor = 2;  ///< k of U = k u

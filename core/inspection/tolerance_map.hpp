@@ -20,7 +20,7 @@ struct ToleranceMap {
   std::uint32_t box_count = 0;
   double leading_edge_mm = std::numeric_limits<double>::infinity();  ///< |d| allowed inside; infinity = not judged
   double rest_mm = std::numeric_limits<double>::infinity();          ///< |d| allowed on the rest
-  double transition = 0;  ///< width, in parameter units, over which the tolerance rises linearly outside a box
+  double transition = 0;           ///< width, in parameter units, over which the tolerance rises linearly outside a box
   std::uint32_t least_points = 1;  ///< judged points that every box needs, or the blade is not decided
 };
 

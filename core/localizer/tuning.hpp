@@ -43,8 +43,8 @@ inline constexpr std::uint32_t kCatchUp = 8;
 inline constexpr double kTouchingBound = 1e-11;
 /// A verdict is pending while what is not determined may change the distance by more than this share of the tolerance.
 inline constexpr double kPendingShare = 0.1;
-/// While points come, fewer fitted ones than this hide their own errors: every verdict is pending. Once no more come, so
-/// many more than there are free degrees of freedom are needed.
+/// While points come, fewer fitted ones than this hide their own errors: every verdict is pending. Once no more come,
+/// so many more than there are free degrees of freedom are needed.
 inline constexpr std::uint32_t kLeastJudged = 12, kLeastSpare = 3;
 
 /// The pose is at rest while it has moved, since the sums in use were begun, by no more than this share of the tightest

@@ -28,8 +28,8 @@ void VerdictBook::assign_region(StoredPoint& point) {
 }
 
 /// What the foot says of the point. Beyond an outer edge the design holds no surface: neither cut nor weld is proven
-/// there, and what lies between two outer edges that face each other, as on a blunt trailing edge, is not beyond. A point
-/// that counts in the fit is judged by its distance like any other.
+/// there, and what lies between two outer edges that face each other, as on a blunt trailing edge, is not beyond. A
+/// point that counts in the fit is judged by its distance like any other.
 VerdictBook::Finding VerdictBook::finding_of(const StoredPoint& point) const {
   const Foot& foot = point.foot;
   const double touching = tuning::kTouchingBound * problem_.frame.length, bound = point.tolerance + touching;

@@ -87,7 +87,8 @@ void RingReader::note_overflow(bool reported) {
   overflow_changes_seen_ = 0;
   overflow_ = reported;
   if (!reported) return;
-  note_unnumbered_loss(status_, "the device reports an overflow: points were lost in it; probe the missing points again");
+  note_unnumbered_loss(status_,
+                       "the device reports an overflow: points were lost in it; probe the missing points again");
 }
 
 void RingReader::note_finish(const CmmHeader& header) {

@@ -119,7 +119,7 @@ void Acquisition::follow_source() {
 void Acquisition::take_loss(const SourceStatus& status) {
   if (status.unnumbered_losses == unnumbered_losses_) return;
   unnumbered_losses_ = status.unnumbered_losses;
-  take({EventKind::lost, {}});
+  take({EventKind::lost_unnumbered, {}});
 }
 
 /// Whether the device's program is finished. One that cannot tell is finished when the session is ended.
@@ -130,19 +130,19 @@ bool Acquisition::program_ended(SessionEnd end) const {
 
 void Acquisition::announce_changes(const SourceStatus& status) {
   const bool announce =
-      status.link != announced_link_ || status.losses != announced_losses_ || status.device_fault != announced_fault_;
-  if (status.link != announced_link_ && status.link == LinkState::lost) {
+      status.link != announced_.link || status.losses != announced_.losses || status.device_fault != announced_.fault;
+  if (status.link != announced_.link && status.link == LinkState::lost) {
     shared_.notices.write(fmt::format("link lost: {}", status.last_fault));
   }
-  if (status.link != announced_link_ && status.link == LinkState::up) shared_.notices.write("link is up again");
-  if (status.losses != announced_losses_) shared_.notices.write(status.last_loss);
-  if (status.device_fault != announced_fault_) {
+  if (status.link != announced_.link && status.link == LinkState::up) shared_.notices.write("link is up again");
+  if (status.losses != announced_.losses) shared_.notices.write(status.last_loss);
+  if (status.device_fault != announced_.fault) {
     shared_.notices.write(status.device_fault ? "the device reports a fault; see its own screen"
                                               : "the device's fault is over");
   }
-  announced_fault_ = status.device_fault;
-  announced_link_ = status.link;
-  announced_losses_ = status.losses;
+  announced_.fault = status.device_fault;
+  announced_.link = status.link;
+  announced_.losses = status.losses;
   if (announce) shared_.to_publication.wakeup.signal();
 }
 

@@ -57,9 +57,12 @@ class Acquisition {
   std::uint64_t taken_events_ = 0;
   bool finish_taken_ = false;
   bool opened_ = false;
-  LinkState announced_link_ = LinkState::up;
-  bool announced_fault_ = false;
-  std::uint64_t announced_losses_ = 0;
+  /// What was last told of the source.
+  struct Announced {
+    LinkState link = LinkState::up;
+    bool fault = false;
+    std::uint64_t losses = 0;
+  } announced_;
   std::uint64_t unnumbered_losses_ = 0;  ///< that are in the stream
   Clock::time_point last_point_ = Clock::now();
 };

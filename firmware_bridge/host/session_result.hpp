@@ -5,10 +5,10 @@
 
 #include "core/localizer.hpp"
 #include "drivers/source/failure.hpp"
-#include "firmware_bridge/host/fit/stream_losses.hpp"
 #include "firmware_bridge/host/panel/tally.hpp"
 #include "firmware_bridge/host/threads/session_outcome.hpp"
 #include "firmware_bridge/host/threads/stream_event.hpp"
+#include "firmware_bridge/host/threads/stream_losses.hpp"
 
 namespace bladefit {
 

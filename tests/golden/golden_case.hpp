@@ -45,8 +45,8 @@ class GoldenCase : public CommandTest {
     EXPECT_EQ(check.exit_code, 0) << c.name << "/" << subset.name << ": " << check.output << fit.output;
   }
 
-  /// No point is out, and the exit code is that of the verdict: points of a small subset may be determined too badly for
-  /// the tolerance, and nothing but that leaves the blade undecided.
+  /// No point is out, and the exit code is that of the verdict: points of a small subset may be determined too badly
+  /// for the tolerance, and nothing but that leaves the blade undecided.
   static void expect_decided_or_pending(const Outcome& fit, const std::string& result) {
     ASSERT_TRUE(fit.exit_code == 0 || fit.exit_code == 4) << fit.output;
     const nlohmann::json json = read_json(result);

@@ -22,17 +22,17 @@ bool has_reason(const nlohmann::json& result, const std::string& code) {
 
 /// Tolerances that no point misses.
 std::vector<std::string> lenient(const std::string& source, const std::string& session, const std::string& json) {
-  return {BLADEFIT_COMMAND, "run",       "--design", kBlade,      "--source", source,      "--leading-edge", "u:0.4:0.6",
-          "--tolerance",    "1",         "--ratio",  "2",         "--panel",  "127.0.0.1:0", "--session",    session,
-          "--json",         json,        "--headless", "--until-idle", "3"};
+  return {BLADEFIT_COMMAND, "run",         "--design", kBlade,    "--source",   source,         "--leading-edge",
+          "u:0.4:0.6",      "--tolerance", "1",        "--ratio", "2",          "--panel",      "127.0.0.1:0",
+          "--session",      session,       "--json",   json,      "--headless", "--until-idle", "3"};
 }
 
 /// A machine with a small memory that goes on probing while nobody reads.
 TEST(RunLosses, AreNeverInTolerance) {
   const ScratchFolder scratch;
   const std::string session = scratch / "session", json = scratch / "result.json";
-  const SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints,
-                                                 {"--rate", "0", "--capacity", "40", "--faults", "overflow"}));
+  const SimulatedMachine machine(
+      machine_options(Link::modbus_tcp, "0", kFewPoints, {"--rate", "0", "--capacity", "40", "--faults", "overflow"}));
   const std::vector<std::string> options = lenient(source_of(Link::modbus_tcp, machine.address()), session, json);
   Process run(options);
   EXPECT_EQ(run.exit_code(), 4) << run.out() << run.err();

@@ -51,20 +51,23 @@ bool beyond_window(const ParameterBox& box, const LocalizerConfig& fit) {
 void check_tolerances(const FitSettings& settings, const LocalizerConfig& fit) {
   const ToleranceMap& map = fit.tolerance;
   if (settings.tolerance && settings.rest_tolerance && *settings.rest_tolerance < *settings.tolerance) {
-    throw ToolError(fmt::format("--rest-tolerance {:g}: is below --tolerance {:g}; the leading edge is the tighter one: "
-                                "exchange the two, or correct one",
-                                *settings.rest_tolerance, *settings.tolerance));
+    throw ToolError(
+        fmt::format("--rest-tolerance {:g}: is below --tolerance {:g}; the leading edge is the tighter one: "
+                    "exchange the two, or correct one",
+                    *settings.rest_tolerance, *settings.tolerance));
   }
   const bool twice = settings.ratio && settings.rest_tolerance && settings.tolerance;
-  if (twice && fit.mode != FitMode::min_tolerance && *settings.rest_tolerance != *settings.ratio * *settings.tolerance) {
+  if (twice && fit.mode != FitMode::min_tolerance &&
+      *settings.rest_tolerance != *settings.ratio * *settings.tolerance) {
     throw ToolError(fmt::format("--ratio {:g} and --rest-tolerance {:g}: both give the rest tolerance; leave one out",
                                 *settings.ratio, *settings.rest_tolerance));
   }
   for (std::uint32_t k = 0; k < map.box_count; ++k) {
     if (!beyond_window(map.boxes[k], fit)) continue;
-    throw ToolError(fmt::format("--leading-edge: zone {} lies outside of --window {:g}:{:g}, so that no point can fall in "
-                                "it; widen the window or correct the zone",
-                                k + 1, fit.window_low, fit.window_high));
+    throw ToolError(
+        fmt::format("--leading-edge: zone {} lies outside of --window {:g}:{:g}, so that no point can fall in "
+                    "it; widen the window or correct the zone",
+                    k + 1, fit.window_low, fit.window_high));
   }
 }
 

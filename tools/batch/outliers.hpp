@@ -7,9 +7,9 @@
 namespace bladefit {
 
 /// Studentised residuals of a robust fit, d sqrt(w) / (s sqrt(1 - h)) with the leverage h of the point and s = 1.4826
-/// times the median distance, which outliers do not raise. A point is an outlier beyond the limit that one of all points
-/// exceeds by chance in 5 of 100 fits with normal errors (Bonferroni). Where s is that of rounding nobody is named.
-/// `size_mm`: half diagonal of the design.
+/// times the median distance, which outliers do not raise. A point is an outlier beyond the limit that one of all
+/// points exceeds by chance in 5 of 100 fits with normal errors (Bonferroni). Where s is that of rounding nobody is
+/// named. `size_mm`: half diagonal of the design.
 [[nodiscard]] Outliers find_outliers(const FitReport& report, double size_mm, const std::vector<Verdict>& verdicts,
                                      const std::vector<ProbePoint>& points);
 

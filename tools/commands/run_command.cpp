@@ -103,9 +103,8 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
                     "check that the machine's program is running",
                     plan.host.session_directory));
   }
-  const Result result =
-      result_of(plan.image, plan.fit, session.points, session.report, session.verdicts, stream,
-                plan.host.session_directory);
+  const Result result = result_of(plan.image, plan.fit, session.points, session.report, session.verdicts, stream,
+                                  plan.host.session_directory);
   const std::vector<std::string> files = write_session_files(plan.host.session_directory, result);
   if (!plan.json.empty()) write_output(plan.json, result_json(result), "result");
   fmt::print(words, "Session ended: {}\n{}", ending(session), operator_summary(result));

@@ -199,11 +199,12 @@ std::string status_line(const ScreenView& view) {
   const PanelState& state = view.state;
   std::string line = fmt::format(
       "{}; "
-      "{}, {}; {} points, {:.1f} a second; fit {}, {} degrees of freedom, rms {:.4f} mm; leading edge: {} out, worst {}; rest of "
+      "{}, {}; {} points, {:.1f} a second; fit {}, {} degrees of freedom, rms {:.4f} mm; leading edge: {} out, worst "
+      "{}; rest of "
       "blade: "
       "{} out",
-      state.has_extension ? verdict_words(state) : "-", session_word(state.session), link_word(view), state.points, view.points_per_second, fit_words(state),
-      state.determined, real(state.rms), state.leading_edge_out,
+      state.has_extension ? verdict_words(state) : "-", session_word(state.session), link_word(view), state.points,
+      view.points_per_second, fit_words(state), state.determined, real(state.rms), state.leading_edge_out,
       worst_words(state.worst_leading_edge, state.worst_leading_edge_sequence), state.rest_out);
   const std::string alarms = alarm_words(state);
   return alarms.empty() ? line : line + "; ALARM " + alarms;

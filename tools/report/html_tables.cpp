@@ -39,12 +39,12 @@ std::string out_row(const Result& result, const ResultPoint& point) {
   const std::string action = point.action == Action::none ? "beyond the edge"
                                                           : fmt::format("<b class=\"{0}\">{1} {0}</b>",
                                                                         word_of(point.action), cut ? "+" : "&minus;");
-  return cells({fmt::format("{}", point.sequence), action, text.with_sign(point.distance),
-                text.with_sign(point.before), text.plain(point.tolerance),
-                text.plain(std::abs(point.distance) - point.tolerance), text.plain(point.uncertainty),
-                readable(word_of(point.region)), fmt::format("{}", point.patch), fmt::format("{:.4f}", point.u),
-                fmt::format("{:.4f}", point.v), fmt::format("{:.2f}", result.in_units(radius_of(result, point))),
-                text.plain(point.position[0]), text.plain(point.position[1]), text.plain(point.position[2])});
+  return cells({fmt::format("{}", point.sequence), action, text.with_sign(point.distance), text.with_sign(point.before),
+                text.plain(point.tolerance), text.plain(std::abs(point.distance) - point.tolerance),
+                text.plain(point.uncertainty), readable(word_of(point.region)), fmt::format("{}", point.patch),
+                fmt::format("{:.4f}", point.u), fmt::format("{:.4f}", point.v),
+                fmt::format("{:.2f}", result.in_units(radius_of(result, point))), text.plain(point.position[0]),
+                text.plain(point.position[1]), text.plain(point.position[2])});
 }
 
 }  // namespace
@@ -93,8 +93,8 @@ std::string out_table(const Result& result) {
   if (out.empty()) return "<p>No point is out of tolerance.</p>\n";
   const std::string unit = ", " + escaped(result.units);
   std::string html = "<table class=\"points\">\n<thead>";
-  html += cells({"Point", "Action", "Distance" + unit, "Unfitted", "Tolerance", "Beyond by", "Uncertainty", "Region", "Patch", "u",
-                 "v", "Radius", "x measured", "y measured", "z measured"},
+  html += cells({"Point", "Action", "Distance" + unit, "Unfitted", "Tolerance", "Beyond by", "Uncertainty", "Region",
+                 "Patch", "u", "v", "Radius", "x measured", "y measured", "z measured"},
                 "th") +
           "</thead>\n<tbody>";
   for (std::size_t k = 0; k < std::min(out.size(), kMostRows); ++k) html += out_row(result, *out[k]);

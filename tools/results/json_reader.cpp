@@ -182,8 +182,7 @@ void read_optional(const JsonField& root, Result& result) {
   }
   if (root.has("robust")) {
     const JsonField points = root["robust"]["judged_otherwise"];
-    for (std::size_t k = 0; k < points.size(); ++k)
-      result.judged_otherwise.push_back(points.element(k).whole() + 1);
+    for (std::size_t k = 0; k < points.size(); ++k) result.judged_otherwise.push_back(points.element(k).whole() + 1);
   }
   if (root.has("notes")) {
     const JsonField notes = root["notes"];

@@ -54,8 +54,8 @@ std::string words_of(const std::vector<SequenceRange>& ranges) {
   std::string text;
   for (std::size_t k = 0; k < std::min(ranges.size(), kRangesTold); ++k) {
     const SequenceRange& r = ranges[k];
-    text += (k == 0 ? "" : ", ") + (r.first == r.last ? fmt::format("{}", r.first)
-                                                      : fmt::format("{} to {}", r.first, r.last));
+    text += (k == 0 ? "" : ", ") +
+            (r.first == r.last ? fmt::format("{}", r.first) : fmt::format("{} to {}", r.first, r.last));
   }
   return text + (ranges.size() > kRangesTold ? " ..." : "");
 }
@@ -97,7 +97,8 @@ class Texts {
                "or fit with the mode least_squares";
       case Reason::underdetermined:
         return fmt::format(
-            "{} of {} free degrees of freedom follow from the {} points that count; probe more points, spread over both "
+            "{} of {} free degrees of freedom follow from the {} points that count; probe more points, spread over "
+            "both "
             "sides and the whole length of the blade",
             result_.details->determined, result_.details->free, result_.all.count);
       case Reason::unproven:
@@ -106,14 +107,16 @@ class Texts {
       case Reason::points_lost:
         return lost_text(stream_);
       case Reason::points_refused:
-        return fmt::format("{} points, the first of them number {}, cannot be used: no numbers, or over a thousand half sizes of the "
+        return fmt::format(
+            "{} points, the first of them number {}, cannot be used: no numbers, or over a thousand half sizes of the "
             "blade away; probe them again",
-                           stream_.refused.size(), stream_.refused.front());
+            stream_.refused.size(), stream_.refused.front());
       case Reason::zone_not_probed:
         return zone_text(zones_of(result_, config_.tolerance), config_.tolerance);
       case Reason::pending:
         return fmt::format(
-            "{} points are not determined well enough to be judged; probe more points near them and over the whole blade",
+            "{} points are not determined well enough to be judged; probe more points near them and over the whole "
+            "blade",
             counts_.pending);
       case Reason::undecided:
         return fmt::format(

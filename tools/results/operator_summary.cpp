@@ -82,8 +82,8 @@ std::string robust_line(const Result& result) {
   return fmt::format(
       "A robust fit judges {} {} otherwise: {}{}; defects that lie together draw a least-squares fit towards "
       "themselves: compare with --loss tukey\n",
-      points.size(), points.size() == 1 ? "point" : "points",
-      fmt::join(points.begin(), points.begin() + told, ", "), points.size() > kListed ? " ..." : "");
+      points.size(), points.size() == 1 ? "point" : "points", fmt::join(points.begin(), points.begin() + told, ", "),
+      points.size() > kListed ? " ..." : "");
 }
 
 /// Settings that a reader of the figures must know, and the points that do not belong to the others.

@@ -11,8 +11,8 @@
 #include "core/inspection/blade_verdict.hpp"
 #include "core/inspection/decision.hpp"
 #include "core/inspection/shaft_axis.hpp"
-#include "firmware_bridge/host/fit/stream_losses.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
+#include "firmware_bridge/host/threads/stream_losses.hpp"
 #include "tools/results/verdict_reason.hpp"
 
 namespace bladefit {
@@ -108,19 +108,19 @@ struct Result {
   std::optional<Mat6> covariance;  ///< of (w, dt) [rad, mm]; nothing where undetermined
   BladeDistances all;
   RegionDistances leading_edge, rest;
-  std::vector<ParameterBox> boxes;    ///< of the leading-edge region
-  double tolerance_factor = 0;        ///< optimum of the mode; 0 = it has none
-  Certificate certificate;            ///< of that optimum
-  std::uint32_t further_starts = 0;   ///< from how many other poses the optimum was sought again,
-  std::uint32_t same_optimum = 0;     ///< and how many of these led to the same one
-  ShaftAxis axis;                     ///< from which radii are measured
-  double tip_radius = 0;              ///< R of r/R; 0 = not known
-  std::vector<std::string> notes;     ///< what the user should know of how the pose was found, a line each
-  std::vector<std::string> locked;    ///< degrees of freedom that kept their start value: tx, ry ...
+  std::vector<ParameterBox> boxes;   ///< of the leading-edge region
+  double tolerance_factor = 0;       ///< optimum of the mode; 0 = it has none
+  Certificate certificate;           ///< of that optimum
+  std::uint32_t further_starts = 0;  ///< from how many other poses the optimum was sought again,
+  std::uint32_t same_optimum = 0;    ///< and how many of these led to the same one
+  ShaftAxis axis;                    ///< from which radii are measured
+  double tip_radius = 0;             ///< R of r/R; 0 = not known
+  std::vector<std::string> notes;    ///< what the user should know of how the pose was found, a line each
+  std::vector<std::string> locked;   ///< degrees of freedom that kept their start value: tx, ry ...
   std::optional<LossUsed> loss;
   Outliers outliers;
   std::vector<std::uint32_t> judged_otherwise;  ///< points that a robust fit finds in instead of out, or the reverse
-  std::vector<ResultPoint> points;  ///< rising sequence
+  std::vector<ResultPoint> points;              ///< rising sequence
   std::optional<FitDetails> details;
 
   /// A length of this result in the units in which it is written.

@@ -15,10 +15,24 @@
 namespace bladefit {
 namespace {
 
-constexpr std::array<std::string_view, 18> kColumns = {
-    "sequence",     "patch",          "u",     "v",      "kind", "region", "distance_mm",
-    "tolerance_mm", "uncertainty_mm", "state", "action", "x",    "y",      "z",
-    "expanded_uncertainty_mm", "distance_before_mm", "left_out", "beyond_mm"};
+constexpr std::array<std::string_view, 18> kColumns = {"sequence",
+                                                       "patch",
+                                                       "u",
+                                                       "v",
+                                                       "kind",
+                                                       "region",
+                                                       "distance_mm",
+                                                       "tolerance_mm",
+                                                       "uncertainty_mm",
+                                                       "state",
+                                                       "action",
+                                                       "x",
+                                                       "y",
+                                                       "z",
+                                                       "expanded_uncertainty_mm",
+                                                       "distance_before_mm",
+                                                       "left_out",
+                                                       "beyond_mm"};
 constexpr std::size_t kQuotedCharacters = 40;
 constexpr const char* kRemedy = "the file is damaged or foreign; run the session again with the same --session";
 
@@ -110,10 +124,11 @@ ResultPoint point_of(const Row& row) {
 std::string verdicts_csv(const std::vector<ResultPoint>& points) {
   std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const ResultPoint& point : points) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u, point.v,
-                        word_of(point.kind), word_of(point.region), point.distance, point.tolerance, point.uncertainty,
-                        word_of(point.state), word_of(point.action), point.position[0], point.position[1],
-                        point.position[2], point.expanded, point.before, word_of(point.left_out), point.beyond);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u,
+                        point.v, word_of(point.kind), word_of(point.region), point.distance, point.tolerance,
+                        point.uncertainty, word_of(point.state), word_of(point.action), point.position[0],
+                        point.position[1], point.position[2], point.expanded, point.before, word_of(point.left_out),
+                        point.beyond);
   }
   return text;
 }

@@ -48,7 +48,7 @@ class FitStream {
       case EventKind::reset:
         reset();
         return observer.forgotten();
-      case EventKind::lost:
+      case EventKind::lost_unnumbered:
         return;
     }
   }

@@ -122,7 +122,8 @@ struct PanelState {
   BladeState verdict = BladeState::not_decided;
   std::uint16_t reasons = 0;    ///< PanelReason bits
   bool fit_determined = false;  ///< every degree of freedom that is not locked; not in a register
-  bool has_extension = false;   ///< whether `verdict`, `improving`, `support` and patch, u, v, radius, action of `newest` are known
+  bool has_extension =
+      false;  ///< whether `verdict`, `improving`, `support` and patch, u, v, radius, action of `newest` are known
   std::array<PanelPlace, kPanelPlaces> newest{};
 };
 

@@ -76,7 +76,7 @@ void Publication::update_counts() {
   state_.rejected = counts.rejected;
   const bool at_rest = figures_.report.status == FitStatus::converged;
   const Verdict none, *const edge = tally_.worst(Region::leading_edge, at_rest),
-                      *const rest = tally_.worst(Region::rest, at_rest);
+                             *const rest = tally_.worst(Region::rest, at_rest);
   state_.worst_leading_edge = to_float((edge != nullptr ? *edge : none).foot.distance);
   state_.worst_leading_edge_sequence = (edge != nullptr ? *edge : none).sequence;
   state_.worst_rest = to_float((rest != nullptr ? *rest : none).foot.distance);

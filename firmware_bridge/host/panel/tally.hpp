@@ -14,7 +14,7 @@ struct TallyCounts {
   std::uint32_t leading_edge_out = 0;
   std::uint32_t rest_out = 0;
   std::uint32_t rejected = 0;
-  std::uint32_t refused = 0;             ///< of these, how many could not be used at all
+  std::uint32_t refused = 0;                 ///< of these, how many could not be used at all
   std::uint32_t pending = 0, undecided = 0;  ///< of those that have a tolerance
 };
 

@@ -7,7 +7,6 @@
 
 #include "core/localizer.hpp"
 #include "drivers/source/probe_source.hpp"
-#include "firmware_bridge/host/fit/stream_losses.hpp"
 #include "firmware_bridge/host/threads/channel.hpp"
 #include "firmware_bridge/host/threads/latest_value.hpp"
 #include "firmware_bridge/host/threads/notice_sink.hpp"
@@ -15,6 +14,7 @@
 #include "firmware_bridge/host/threads/session_requests.hpp"
 #include "firmware_bridge/host/threads/stored_progress.hpp"
 #include "firmware_bridge/host/threads/stream_event.hpp"
+#include "firmware_bridge/host/threads/stream_losses.hpp"
 
 namespace bladefit {
 

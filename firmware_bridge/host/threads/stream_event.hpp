@@ -7,9 +7,9 @@ namespace bladefit {
 
 enum class EventKind : std::uint8_t {
   point = 1,
-  finished = 2,  ///< the device said that its program is finished
-  reset = 3,     ///< the operator asked to forget all points so far
-  lost = 4,      ///< points were lost before they had a number
+  finished = 2,         ///< the device said that its program is finished
+  reset = 3,            ///< the operator asked to forget all points so far
+  lost_unnumbered = 4,  ///< points were lost before they had a number
 };
 
 /// One element of the stream that a session consists of. The order of the events, and nothing else, decides about the

@@ -30,7 +30,8 @@ std::vector<ProbePoint> defective(std::vector<ProbePoint> points) {
 
 /// When a point was told to be out, and which are out in the end.
 struct Alarms {
-  std::map<std::uint32_t, std::uint32_t> told;  ///< sequence of the point, that of the newest one when it was first told
+  std::map<std::uint32_t, std::uint32_t>
+      told;  ///< sequence of the point, that of the newest one when it was first told
   std::set<std::uint32_t> confirmed;
   FitReport report;
 };
@@ -77,8 +78,8 @@ TEST_P(StreamAlarms, AreAllConfirmedByTheEnd) {
     EXPECT_EQ(false_ones, 0U) << (directions ? "with" : "without") << " directions";
     EXPECT_FALSE(alarms.confirmed.empty());
     RecordProperty(directions ? "delay_with_directions" : "delay_without", static_cast<int>(delay));
-    std::printf("%s: %zu told, %u of them not confirmed, %zu confirmed, longest delay %u points\n", word_of(GetParam()).data(),
-                alarms.told.size(), false_ones, alarms.confirmed.size(), delay);
+    std::printf("%s: %zu told, %u of them not confirmed, %zu confirmed, longest delay %u points\n",
+                word_of(GetParam()).data(), alarms.told.size(), false_ones, alarms.confirmed.size(), delay);
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFits = 200;
 constexpr std::size_t kTouches = 120;
-constexpr double kNoise = 0.02;     ///< [mm], standard deviation along the normal
+constexpr double kNoise = 0.02;        ///< [mm], standard deviation along the normal
 constexpr double kTwoSided95 = 1.981;  ///< Student's t of 114 degrees of freedom
 
 /// Where a blade was touched: on its design, and how far off along the normal.
@@ -32,9 +32,7 @@ std::vector<Touched> touched_places(const CompiledDesign& design, std::mt19937_6
   return out;
 }
 
-Pose inverse(const Pose& pose) {
-  return {pose.rotation.transpose(), -(pose.rotation.transpose() * pose.translation)};
-}
+Pose inverse(const Pose& pose) { return {pose.rotation.transpose(), -(pose.rotation.transpose() * pose.translation)}; }
 
 /// How many of the intervals held the truth.
 struct Coverage {
@@ -92,8 +90,8 @@ TEST_P(Uncertainty, OfPoseAndDistancesHoldsForIndependentErrors) {
     EXPECT_GE(coverage.share(), 0.92);
     EXPECT_LE(coverage.share(), 0.98);
   }
-  std::printf("%s: noise alone: pose %.3f, distances %.3f of the 95 %% intervals hold\n", GetParam(), found.pose.share(),
-              found.distances.share());
+  std::printf("%s: noise alone: pose %.3f, distances %.3f of the 95 %% intervals hold\n", GetParam(),
+              found.pose.share(), found.distances.share());
 }
 
 /// A smooth form error is not independent from point to point: what it does to the pose is the same in every fit, and

@@ -39,8 +39,8 @@ TEST(ConfigDigest, EachFieldChangesIt) {
   const LocalizerConfig config = config_with_boxes();
   std::size_t fields = 0;
   for_each_field(config, [&fields](const char*, const auto&) { ++fields; });
-  // 16 fields beside start, tolerance and decision, 12 numbers of the start pose, 5 of the tolerances, 5 a box, 4 of the
-  // decision.
+  // 16 fields beside start, tolerance and decision, 12 numbers of the start pose, 5 of the tolerances, 5 a box, 4 of
+  // the decision.
   EXPECT_EQ(fields, 16U + 12U + 5U + 2U * 5U + 4U);
   std::set<std::uint64_t> digests{config_digest(config, 0)};
   std::set<std::string> names;

@@ -1,4 +1,4 @@
-#include "firmware_bridge/host/fit/stream_losses.hpp"
+#include "firmware_bridge/host/threads/stream_losses.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST(StreamLosses, AnEndWithoutANumberTellsNothing) {
 
 TEST(StreamLosses, PointsWithoutANumberCountAsLost) {
   StreamLosses losses;
-  EXPECT_FALSE(losses.take(event(EventKind::lost)));
+  EXPECT_FALSE(losses.take(event(EventKind::lost_unnumbered)));
   EXPECT_TRUE(losses.any());
   EXPECT_EQ(losses.records(), 0U);
 }
@@ -61,7 +61,7 @@ TEST(StreamLosses, PointsWithoutANumberCountAsLost) {
 TEST(StreamLosses, AResetForgetsThemAndGoesOnWithTheNumbering) {
   StreamLosses losses;
   EXPECT_TRUE(losses.take(event(EventKind::point, 3)));
-  EXPECT_FALSE(losses.take(event(EventKind::lost)));
+  EXPECT_FALSE(losses.take(event(EventKind::lost_unnumbered)));
   EXPECT_FALSE(losses.take(event(EventKind::reset)));
   EXPECT_FALSE(losses.any());
   EXPECT_FALSE(losses.take(event(EventKind::point, 4)));

@@ -77,7 +77,8 @@ TEST(BridgeTally, TheWorstPointIsAJudgedOneUnlessPendingOnesAreAskedFor) {
   const ToleranceMap judged_everywhere = all_judged();
   Tally tally(judged_everywhere);
   EXPECT_EQ(tally.worst(Region::leading_edge, true), nullptr);
-  Verdict near = verdict(1, PointState::in), far = verdict(2, PointState::out), farther = verdict(3, PointState::pending);
+  Verdict near = verdict(1, PointState::in), far = verdict(2, PointState::out),
+          farther = verdict(3, PointState::pending);
   near.foot.distance = 0.01;
   far.foot.distance = -0.4;
   farther.foot.distance = 5.0;

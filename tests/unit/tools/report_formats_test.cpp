@@ -52,7 +52,8 @@ TEST(ReportFormats, CsvHasALineAPointInTheUnitOfTheResult) {
   std::istringstream text(session.read("points.csv"));
   std::string line;
   std::getline(text, line);
-  EXPECT_EQ(line, "sequence,x_in,y_in,z_in,patch,u,v,kind,region,distance_in,tolerance_in,uncertainty_in,state,action,"
+  EXPECT_EQ(line,
+            "sequence,x_in,y_in,z_in,patch,u,v,kind,region,distance_in,tolerance_in,uncertainty_in,state,action,"
             "expanded_uncertainty_in,distance_before_in");
   std::getline(text, line);
   EXPECT_EQ(line, "1,1,-2,0.1,0,0.5,0.1,interior,leading_edge,0.02,0.01,0.0005,out,cut,0.001,0.05");
@@ -116,7 +117,8 @@ TEST(ReportFormats, HeadlineFollowsTheVerdict) {
   EXPECT_TRUE(contains(session.page(), "In tolerance: every point is within its tolerance"));
   session.judge(testing::verdict_of_blade("not_judged"));
   EXPECT_TRUE(contains(session.page(), "Not judged: no tolerance was set"));
-  session.judge(testing::verdict_of_blade("not_decided", "points_lost", "points 3 to 7 never arrived; probe them again"));
+  session.judge(
+      testing::verdict_of_blade("not_decided", "points_lost", "points 3 to 7 never arrived; probe them again"));
   EXPECT_TRUE(contains(session.page(), "Not decided: points 3 to 7 never arrived"));
   session.judge(testing::verdict_of_blade("out_of_tolerance"));
   EXPECT_TRUE(contains(session.page(), "Out of tolerance: no pose brings all points within their tolerances"));

@@ -68,8 +68,9 @@ inline nlohmann::json result_of_points(const std::vector<SessionPoint>& points) 
 }
 
 inline std::string verdicts_of_points(const std::vector<SessionPoint>& points) {
-  std::string text = "sequence,patch,u,v,kind,region,distance_mm,tolerance_mm,uncertainty_mm,state,action,x,y,z,"
-                     "expanded_uncertainty_mm,distance_before_mm,left_out,beyond_mm\n";
+  std::string text =
+      "sequence,patch,u,v,kind,region,distance_mm,tolerance_mm,uncertainty_mm,state,action,x,y,z,"
+      "expanded_uncertainty_mm,distance_before_mm,left_out,beyond_mm\n";
   for (const SessionPoint& point : points) {
     text += std::to_string(point.sequence) + ",0,0.5,0." + std::to_string(point.sequence) + ",interior," +
             point.region + "," + std::to_string(point.distance_mm) + ",0.254,0.0127," + point.state + "," +

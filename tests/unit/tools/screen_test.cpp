@@ -50,8 +50,8 @@ TEST(BridgeScreen, FitsEightyByTwentyFour) {
 TEST(BridgeScreen, SaysWhatTheOperatorNeeds) {
   const std::string text = joined(draw_screen(known_view(), kScreenWidth, kScreenHeight));
   for (const char* words : {"session tracking", "link LOST", "LEADING EDGE OUT", "70001", "199.9 a second",
-                            "6 degrees of freedom", "0.0140 mm", "-0.018 mm at point 70020", "0.045 mm", "80000",
-                            "CUT", "WELD", "107.00 mm", "0.6000", "4.9 us", "leading edge: OUT"}) {
+                            "6 degrees of freedom", "0.0140 mm", "-0.018 mm at point 70020", "0.045 mm", "80000", "CUT",
+                            "WELD", "107.00 mm", "0.6000", "4.9 us", "leading edge: OUT"}) {
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
   }
 }

@@ -174,8 +174,7 @@ TEST(WorldChecks, ThePoseChoosesTheBladeOrNobodyDoes) {
   for (const char* word : {"fitted to blade 2 (patch 1)", "blade 1 (patch 0)", "blade 3 (patch 2)", "start pose"})
     EXPECT_NE(near.notes.front().find(word), std::string::npos) << word << " in " << near.notes.front();
   plan.search_start = true;
-  expect_undecided(fit_points(propeller().image(), plan, points, "points.csv").result, Reason::ambiguous,
-                   "blade 3");
+  expect_undecided(fit_points(propeller().image(), plan, points, "points.csv").result, Reason::ambiguous, "blade 3");
 }
 
 /// A fit that a session made is only told of.

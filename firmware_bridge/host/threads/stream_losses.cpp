@@ -1,4 +1,4 @@
-#include "firmware_bridge/host/fit/stream_losses.hpp"
+#include "firmware_bridge/host/threads/stream_losses.hpp"
 
 namespace bladefit {
 
@@ -18,7 +18,7 @@ std::optional<SequenceRange> StreamLosses::take(const StreamEvent& event) {
       records_ = 0;
       unnumbered_ = finished_ = false;
       return std::nullopt;
-    case EventKind::lost:
+    case EventKind::lost_unnumbered:
       unnumbered_ = true;
       return std::nullopt;
   }
