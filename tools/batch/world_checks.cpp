@@ -131,7 +131,15 @@ StartChoice WorldChecks::searched_start() {
   return choice;
 }
 
-std::optional<StartChoice> WorldChecks::better_start(const PoseFit& fitted) {
+/// What tells whether the points belong to the design: other modes than least squares bring most points farther away so
+/// that some come nearer, so the least-squares fit that belongs to their pose is weighed instead.
+PoseFit WorldChecks::weighed(const PoseFit& finished) const {
+  if (plan_.localizer.mode == FitMode::least_squares || !is_suspect(finished, scale_mm_)) return finished;
+  return fit_candidate(design_, plan_.localizer, some_of(points_, kSearchPoints), finished.pose);
+}
+
+std::optional<StartChoice> WorldChecks::better_start(const PoseFit& finished) {
+  const PoseFit fitted = weighed(finished);
   if (are_too_few(fitted)) return std::nullopt;
   if (!is_suspect(fitted, scale_mm_) || plan_.localizer.locked != 0) return std::nullopt;
   const std::vector<PoseFit>& poses = found_poses();
@@ -198,7 +206,8 @@ void WorldChecks::tell_rivals(const PoseFit& fitted, bool searched, Findings& fi
                    rivals.front().own_rms_mm / plan_.mm_per_unit, plan_.units)});
 }
 
-Findings WorldChecks::findings_of(const PoseFit& fitted, bool searched) {
+Findings WorldChecks::findings_of(const PoseFit& finished, bool searched) {
+  const PoseFit fitted = weighed(finished);
   Findings findings;
   if (are_too_few(fitted)) return findings;
   if (!is_credible(fitted, scale_mm_)) {

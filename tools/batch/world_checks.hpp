@@ -38,13 +38,14 @@ class WorldChecks {
   [[nodiscard]] StartChoice choose_start();
 
   /// A start from which the points fit far better than in a finished fit; nothing where there is none, or no need.
-  [[nodiscard]] std::optional<StartChoice> better_start(const PoseFit& fitted);
+  [[nodiscard]] std::optional<StartChoice> better_start(const PoseFit& finished);
 
   /// What stands against a finished fit. `searched`: its start was searched, so that it prefers none of several poses.
-  [[nodiscard]] Findings findings_of(const PoseFit& fitted, bool searched);
+  [[nodiscard]] Findings findings_of(const PoseFit& finished, bool searched);
 
  private:
   [[nodiscard]] std::optional<Pose> usable_start() const;
+  [[nodiscard]] PoseFit weighed(const PoseFit& finished) const;
   void check_directions(StartChoice& choice) const;
   [[nodiscard]] StartChoice searched_start();
   [[nodiscard]] const std::vector<PoseFit>& found_poses();
