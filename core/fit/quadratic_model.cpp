@@ -123,8 +123,8 @@ DistanceRow distance_row(const Projection& projection, const Foot& foot, const V
   const double length = projection.offset.norm();
   const bool of_edge = (projection.fixed_u || projection.fixed_v) && length > 0.0;
   if (of_edge) {
-    // At a seam the distance is that to its curve, with a sign.
-    const double side = foot.kind == FootKind::interior && n.dot(projection.offset) < 0.0 ? -1.0 : 1.0;
+    // The distance is that to the curve, with a sign at a seam or a joint.
+    const double side = n.dot(projection.offset) < 0.0 ? -1.0 : 1.0;
     n = projection.offset * (side / length);
     add_curve_bend(projection, n, lever, row.bend);
     row.bend *= side;

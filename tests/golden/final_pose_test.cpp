@@ -95,7 +95,7 @@ TEST_F(FinalPose, PointsOutsideTheWindowAreToldApart) {
   points_.emplace_back(20.0, 100.5, half_thickness(20.0));
   points_.emplace_back(20.0, 98.0, half_thickness(20.0));
   const Outcome outcome = localize({"--window", "0.05:0.95"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.output;  // no point is at the leading edge
   expect_says(outcome, "2 points are not judged: foot outside the window before the fit");
   for (const nlohmann::json& point : added()) {
     EXPECT_EQ(point["state"], "rejected");
@@ -107,7 +107,7 @@ TEST_F(FinalPose, PointsOutsideTheWindowAreToldApart) {
 TEST_F(FinalPose, PointsBetweenTheEndsOfTwoSidesAreNotBeyond) {
   for (const double z : {-0.9, -0.5, 0.1, 0.5, 0.9}) points_.emplace_back(60.0, 50.0, z);
   const Outcome outcome = localize({});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.output;  // no point is at the leading edge
   expect_says(outcome, "5 points are not judged: foot on an outer edge of the design");
   for (const nlohmann::json& point : added()) EXPECT_EQ(point["left_out"], "edge");
 }

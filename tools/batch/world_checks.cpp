@@ -210,7 +210,7 @@ Findings WorldChecks::findings_of(const PoseFit& finished, bool searched) {
   const PoseFit fitted = weighed(finished);
   Findings findings;
   if (are_too_few(fitted)) return findings;
-  if (!is_credible(fitted, scale_mm_)) {
+  if (!is_plausible(fitted, scale_mm_)) {
     const std::vector<PoseFit>& poses = found_poses();
     findings.doubts.push_back(
         explain_misfit(poses.empty() ? fitted.typical_mm : std::min(fitted.typical_mm, poses.front().typical_mm)));

@@ -154,7 +154,7 @@ NurbsSurface roof(int degree) {
 
 TEST(Creases, TheRidgeIsTheNearestOfAPointAboveIt) {
   for (const int degree : {1, 2, 3}) {
-    const CompiledDesign design(write_image({roof(degree)}, DesignUnit::mm, 1));
+    const CompiledDesign design(write_image({roof(degree)}, DesignUnit::mm, -1));  // material below
     const Vec3 r(7, 0.5, 3);
     const GlobalProjection found = project_global(design.surface(), {r, Vec3::Zero(), 1.0}, nullptr);
     EXPECT_TRUE(found.proven);

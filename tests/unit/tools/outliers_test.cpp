@@ -60,6 +60,7 @@ TEST(OutliersNamed, NobodyWhereTheScaleIsThatOfRounding) {
   for (std::uint32_t i = 0; i < 40; ++i) {
     verdicts[i].sequence = points[i].sequence = i + 1;
     verdicts[i].state = PointState::in;
+    verdicts[i].fitted = true;
     verdicts[i].foot.distance = 1e-13 * (i % 7);
   }
   verdicts[5].foot.distance = 4e-12;
