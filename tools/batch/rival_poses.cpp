@@ -150,10 +150,16 @@ std::vector<Rival> competing_optima(const RivalQuestion& question) {
                                     [](const ProbePoint& p) { return Vec3(p.approach.data()).squaredNorm() > 0.5; });
   const bool few = question.points.size() < kFewPoints;
   if (!few || (directed && question.plan.localizer.use_approach) || question.points.size() <= 6) return {};
-  // Rivals are least-squares fits: in another mode they are rivals of the one that belongs to its pose.
-  const PoseFit own = fit_candidate(question.design, question.plan.localizer, question.points, question.own.pose);
+  // Rivals are least-squares fits: in another mode they are rivals of the one that it began with, or of that which
+  // belongs to its pose.
+  const LocalizerConfig& config = question.plan.localizer;
+  PoseFit own = fit_candidate(question.design, config, question.points, question.own.pose);
+  if (config.mode != FitMode::least_squares) {
+    const PoseFit first = fit_candidate(question.design, config, question.points, config.start);
+    if (first.counted >= own.counted && first.rms_mm < own.rms_mm) own = first;
+  }
   const double length = Surface(question.design).half_diagonal();
-  const double was_off = apart(question.points, question.plan.localizer.start, own.pose);
+  const double was_off = apart(question.points, config.start, own.pose);
   const double off = std::clamp(was_off, kLeastOff * length, kMostOff * length);
   Vec3 middle = Vec3::Zero();
   for (const ProbePoint& point : question.points) middle += apply(own.pose, Vec3(point.position.data()));
@@ -166,8 +172,8 @@ std::vector<Rival> competing_optima(const RivalQuestion& question) {
     add_rival(about_own, question.points, own.rms_mm, moved(own.pose, step, middle), "", rivals);
   }
   // One bad point makes the root mean squares alike: most points must fit as well, too.
-  std::erase_if(rivals, [&question](const Rival& rival) {
-    return !fits_as_well(rival.fit.typical_mm, question.own.typical_mm, rival.fit.counted);
+  std::erase_if(rivals, [&own](const Rival& rival) {
+    return !fits_as_well(rival.fit.typical_mm, own.typical_mm, rival.fit.counted);
   });
   return rivals;
 }
