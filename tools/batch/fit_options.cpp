@@ -114,9 +114,10 @@ std::string explained(const ConfigFault& fault, const LocalizerConfig& fit, std:
 
 void plan_start(const std::string& path, FitPlan& plan) {
   if (path == kSearchStart) {
-    if (plan.localizer.locked != 0)
+    if (plan.localizer.locked != 0) {
       throw ToolError(
           "--start search: --lock keeps degrees of freedom of a start that is not known; leave one of them out");
+    }
     plan.search_start = true;
     return;
   }

@@ -89,6 +89,8 @@ FitDetails details_of(const FinishedFit& fit) {
           .determined = fit.report.determined,
           .free = fit.report.free,
           .unproven = fit.report.unproven,
+          .ended = fit.report.ended,
+          .held_feet = fit.report.held_feet,
           .stationarity = fit.report.stationarity};
 }
 

@@ -74,6 +74,7 @@ double trimmed_extent(const std::vector<ProbePoint>& points) {
   }
   const Vec3 centre(middle.data());
   std::vector<Vec3> kept;
+  kept.reserve(points.size());
   for (const ProbePoint& point : points) kept.push_back(position_of(point));
   std::sort(kept.begin(), kept.end(), [&centre](const Vec3& a, const Vec3& b) {
     return (a - centre).squaredNorm() < (b - centre).squaredNorm();

@@ -84,7 +84,28 @@ std::string zone_text(const ZoneCount& zones, const ToleranceMap& map) {
       map.least_points, text);
 }
 
-/// What happened, and what to do. `seen`: how many points it is about.
+/// Why a fit has not converged, with what to do.
+std::string end_text(FitEnd ended) {
+  switch (ended) {
+    case FitEnd::feet_changing:
+      return "feet change from side to side of the blade with every pose; leave out the points that are farthest off, "
+             "or "
+             "give --ignore-approach";
+    case FitEnd::regions_restless:
+      return "points move between the regions with every pose; widen --transition, or give --regions fixed";
+    case FitEnd::program_failed:
+      return "the mode has no solution to working precision; leave out the points that are farthest off, or fit with "
+             "the "
+             "mode least_squares";
+    case FitEnd::feet_unproven:
+    case FitEnd::sweeps_used_up:
+    case FitEnd::none:
+      break;
+  }
+  return "check that design, units and start belong to these points, or fit with the mode least_squares";
+}
+
+/// What happened, and what to do.
 class Texts {
  public:
   Texts(const Result& result, const LocalizerConfig& config, const StreamEvidence& stream)
@@ -93,8 +114,7 @@ class Texts {
   [[nodiscard]] std::string of(Reason reason) const {
     switch (reason) {
       case Reason::not_converged:
-        return "the fit has not come to rest at an optimum; check that design, units and start belong to these points, "
-               "or fit with the mode least_squares";
+        return "the fit has not come to rest at an optimum: " + end_text(result_.details->ended);
       case Reason::underdetermined:
         return fmt::format(
             "{} of {} free degrees of freedom follow from the {} points that count; probe more points, spread over "

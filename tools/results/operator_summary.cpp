@@ -137,8 +137,12 @@ std::string infeasible_lines(const Result& result) {
 std::string optimum_line(const Result& result) {
   const double factor = result.tolerance_factor;
   if (factor <= 0.0) return "";
-  const std::string proof = fmt::format("Proof: {} cannot all come nearer (multipliers balance to {:.1e})\n",
-                                        point_list(result.certificate), result.details->stationarity);
+  const std::string held =
+      result.details->held_feet == 0
+          ? std::string()
+          : fmt::format(" while {} other feet are kept from turning from their probe", result.details->held_feet);
+  const std::string proof = fmt::format("Proof: {} cannot all come nearer{} (multipliers balance to {:.1e})\n",
+                                        point_list(result.certificate), held, result.details->stationarity);
   switch (result.details->mode) {
     case FitMode::minimax:
       return fmt::format("Largest distance: {}, the smallest found{}\n", length(result, factor), other_starts(result)) +
@@ -214,14 +218,16 @@ std::string left_out_lines(const Result& result) {
         }));
   };
   std::string text;
-  if (const auto count = left_out(LeftOut::window); count > 0)
+  if (const auto count = left_out(LeftOut::window); count > 0) {
     text += fmt::format("{} not judged: foot outside the window before the fit\n",
                         points_that(count, "point is", "points are"));
-  if (const auto count = left_out(LeftOut::edge); count > 0)
+  }
+  if (const auto count = left_out(LeftOut::edge); count > 0) {
     text += fmt::format(
         "{} not judged: foot on an outer edge of the design, and no farther beyond it than the "
         "tolerance\n",
         points_that(count, "point is", "points are"));
+  }
   return text + beyond_line(result);
 }
 

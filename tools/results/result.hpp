@@ -11,6 +11,7 @@
 #include "core/inspection/blade_verdict.hpp"
 #include "core/inspection/decision.hpp"
 #include "core/inspection/shaft_axis.hpp"
+#include "core/localizer.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
 #include "firmware_bridge/host/threads/stream_losses.hpp"
 #include "tools/results/verdict_reason.hpp"
@@ -89,6 +90,8 @@ struct FitDetails {
   std::uint32_t determined = 0;  ///< degrees of freedom that the points determine
   std::uint32_t free = 6;        ///< degrees of freedom that are not locked
   std::uint32_t unproven = 0;    ///< feet that could not be proven the nearest
+  FitEnd ended = FitEnd::none;   ///< why it has not converged
+  std::uint32_t held_feet = 0;   ///< points whose foot the mode's program kept from turning from its probe
   double stationarity = 0;       ///< of the optimum's Karush-Kuhn-Tucker conditions, relative
 };
 

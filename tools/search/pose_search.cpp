@@ -26,6 +26,7 @@ constexpr double kFirstReach = 0.5, kSecondReach = 0.12, kSamePose = 0.03, kSame
 
 std::vector<Vec3> positions_of(const std::vector<ProbePoint>& points) {
   std::vector<Vec3> out;
+  out.reserve(points.size());
   for (const ProbePoint& point : points) out.emplace_back(point.position.data());
   return out;
 }
@@ -142,6 +143,7 @@ std::vector<PoseFit> PoseSearch::poses_of(const std::vector<ProbePoint>& all) co
   improve(positions, starts);
   starts = best_of(starts, points, kMostPoses, same, misfit);
   std::vector<PoseFit> fits;
+  fits.reserve(starts.size());
   for (const Start& start : starts) fits.push_back(fit_candidate(design_, config_, points, start.pose));
   return best_of(fits, points, kMostPoses, kSameFit * samples_.half_diagonal_mm,
                  [](const PoseFit& fit) { return std::pair(fit.is_averted(), fit.typical_mm); });
