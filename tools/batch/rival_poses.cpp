@@ -172,8 +172,10 @@ std::vector<Rival> competing_optima(const RivalQuestion& question) {
     add_rival(about_own, question.points, own.rms_mm, moved(own.pose, step, middle), "", rivals);
   }
   // One bad point makes the root mean squares alike: most points must fit as well, too.
-  std::erase_if(rivals, [&own](const Rival& rival) {
-    return !fits_as_well(rival.fit.typical_mm, own.typical_mm, rival.fit.counted);
+  const bool squares = config.mode == FitMode::least_squares;
+  const double typical_mm = squares ? std::min(own.typical_mm, question.own.typical_mm) : own.typical_mm;
+  std::erase_if(rivals, [typical_mm](const Rival& rival) {
+    return !fits_as_well(rival.fit.typical_mm, typical_mm, rival.fit.counted);
   });
   return rivals;
 }
