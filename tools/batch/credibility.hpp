@@ -12,8 +12,8 @@ namespace bladefit {
 /// Whether points that lie like this may belong to the design: three quarters of them within a hundredth of the scale.
 [[nodiscard]] bool is_credible(const PoseFit& fit, double scale_mm);
 
-/// The same of a finished fit for which no better pose was found: the blade may be a rough casting, three quarters of the
-/// points within three hundredths.
+/// The same of a finished fit for which no better pose was found: the blade may be a rough casting, three quarters of
+/// the points within three hundredths.
 [[nodiscard]] bool is_plausible(const PoseFit& fit, double scale_mm);
 
 /// Whether it is worth looking for a better pose: three quarters of them are not within some thousandths.
