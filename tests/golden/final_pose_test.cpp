@@ -137,6 +137,8 @@ TEST_F(FinalPose, AStreamJudgesThemAlike) {
                                "0.1",
                                "--rest-tolerance",
                                "0.1",
+                               "--session",
+                               scratch("session"),
                                "--json",
                                scratch("result.json")});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
