@@ -1,70 +1,13 @@
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <string>
 
-#include "tools/commands/compile_command.hpp"
-#include "tools/commands/localize_command.hpp"
-#include "tools/commands/loft_command.hpp"
-#include "tools/commands/panel_command.hpp"
-#include "tools/commands/report_command.hpp"
-#include "tools/commands/reproduce_command.hpp"
-#include "tools/commands/run_command.hpp"
-#include "tools/commands/sample_command.hpp"
-#include "tools/commands/simulate_command.hpp"
-#include "tools/commands/split_command.hpp"
+#include "tools/commands/command_line.hpp"
 #include "tools/files/exit_codes.hpp"
 #include "tools/files/tool_error.hpp"
 
-namespace {
-
-constexpr const char* kFooter =
-    "A first try:\n"
-    "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1 --json "
-    "out.json\n"
-    "Exit codes: 0 done, in tolerance or nothing to judge, 1 the blade is out of tolerance, 2 wrong use or bad input, "
-    "3 "
-    "device or I/O failure, 4 not decided: the reasons stand below the verdict.";
-
-/// Takes the command line apart and runs what it asks for; returns the exit code.
-int run(int argc, char** argv) {
-  CLI::App app("bladefit: live localization of marine propeller blades on a coordinate measuring machine", "bladefit");
-  app.require_subcommand(1);
-  app.footer(kFooter);
-  int exit_code = 0;
-  bladefit::add_loft_command(app, exit_code);
-  bladefit::add_split_command(app, exit_code);
-  bladefit::add_sample_command(app, exit_code);
-  bladefit::add_compile_command(app, exit_code);
-  bladefit::add_localize_command(app, exit_code);
-  bladefit::add_simulate_command(app, exit_code);
-  bladefit::add_run_command(app, exit_code);
-  bladefit::add_panel_command(app, exit_code);
-  bladefit::add_report_command(app, exit_code);
-  bladefit::add_reproduce_command(app, exit_code);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    const std::string first = argc > 1 ? argv[1] : "";
-    const auto named = [&first](const CLI::App* command) { return command->get_name() == first; };
-    if (!first.empty() && first.front() != '-' && app.get_subcommands(named).empty()) {
-      std::fprintf(stderr, "bladefit: '%s' is no command; `bladefit --help` lists them\n", first.c_str());
-      return bladefit::kBadInput;
-    }
-    std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n",
-                 error.what());
-    return bladefit::kBadInput;
-  }
-  return exit_code;
-}
-
-}  // namespace
-
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return bladefit::run_command_line(argc, argv);
   } catch (const bladefit::ToolError& error) {
     std::fprintf(stderr, "bladefit: %s\n", error.what());
     return error.exit_code();

@@ -1,7 +1,9 @@
 // Fits random patterns of defects on every design of tests/data in every mode beside least squares, with and without
 // probing directions, in batch and as a stream, and counts what was answered. It takes minutes and is run by hand:
 //   golden_defects [--first SEED] [--count PATTERNS] [--case NAME] [--mode NAME] [--way batch|stream] [--list]
+//   [--second]
 // Pattern number k is on design k mod 8. Exit code 1: a fit was not answered, was wrong or took more than 3 s.
+// --second: each optimum is also looked for by another solver, and is wrong where that finds a better one.
 
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include <memory>
 #include <string>
 
+#include "tests/golden/second_solver.hpp"
 #include "tests/support/defect_fits.hpp"
 
 namespace bladefit::testing {
@@ -21,7 +24,7 @@ constexpr FitMode kModes[] = {FitMode::minimax, FitMode::range, FitMode::min_tol
 struct Wanted {
   std::uint64_t first = 0, count = 80;
   std::string design, mode, way;
-  bool list = false;
+  bool list = false, second = false;
 };
 
 /// A design with the points that are made defective.
@@ -87,11 +90,21 @@ class Experiment {
         for (const WayIn way : {WayIn::batch, WayIn::stream}) {
           const std::string name = way == WayIn::batch ? "batch" : "stream";
           if (!wanted_.way.empty() && wanted_.way != name) continue;
-          count(source, seed, pattern, std::string(word_of(mode)) + (directed ? " directed " : " free ") + name,
-                fit_defects(reference_design(source.c.name), config, pattern.points, way));
+          DefectFit fit = fit_defects(reference_design(source.c.name), config, pattern.points, way);
+          if (wanted_.second && fit.report.status == FitStatus::converged) compare(source, config, fit);
+          count(source, seed, pattern, std::string(word_of(mode)) + (directed ? " directed " : " free ") + name, fit);
         }
       }
     }
+  }
+
+  /// The other solver, from the least-squares pose.
+  static void compare(const Source& source, const LocalizerConfig& config, DefectFit& fit) {
+    const CompiledDesign& design = reference_design(source.c.name);
+    const SecondOptimum second = solve_again(ModeValue(design, config, fit.counted), fit.least_squares);
+    std::printf("    %.9g; by the second solver %.9g\n", fit.value, second.value);
+    if (fit.value > second.value * (1.0 + 1e-6) + 1e-9 * design.size())
+      fit.complaint += " the second solver finds better";
   }
 
   void count(const Source& source, std::uint64_t seed, const DefectPattern& pattern, const std::string& kind,
@@ -135,8 +148,8 @@ Wanted wanted_of(int count, char** words) {
   Wanted wanted;
   for (int k = 1; k < count; ++k) {
     const std::string word = words[k], value = k + 1 < count ? words[k + 1] : "";
-    if (word == "--list") {
-      wanted.list = true;
+    if (word == "--list" || word == "--second") {
+      (word == "--list" ? wanted.list : wanted.second) = true;
       continue;
     }
     ++k;

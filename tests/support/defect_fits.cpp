@@ -80,10 +80,11 @@ DefectFit fit_defects(const CompiledDesign& design, const LocalizerConfig& confi
   out.refine_s = run(*fit, points, way, out.status);
   out.push_s = cpu_s() - began - out.refine_s;
   out.report = fit->fit();
-  const Pose before = least_squares_pose(design, config, points);
-  const ModeValue objective(design, config, counted(*fit, points));
-  const bool unmet = config.mode == FitMode::constrained && objective.largest_ratio(before) > 1.0;
-  out.least_squares_value = unmet ? std::numeric_limits<double>::infinity() : objective.at(before);
+  out.least_squares = least_squares_pose(design, config, points);
+  out.counted = counted(*fit, points);
+  const ModeValue objective(design, config, out.counted);
+  const bool unmet = config.mode == FitMode::constrained && objective.largest_ratio(out.least_squares) > 1.0;
+  out.least_squares_value = unmet ? std::numeric_limits<double>::infinity() : objective.at(out.least_squares);
   out.value = objective.at(out.report.pose);
   if (out.answered()) check(objective, 1e-9 * design.size(), out);
   return out;

@@ -15,8 +15,10 @@ struct DefectFit {
   FitReport report;
   double push_s = 0, refine_s = 0;  ///< processor time of taking the points in, and of the fit then
   double least_squares_value =
-      0;             ///< of the mode's objective at the least-squares pose; infinite where that is infeasible
-  double value = 0;  ///< by the definition, at the pose found
+      0;               ///< of the mode's objective at the least-squares pose; infinite where that is infeasible
+  double value = 0;    ///< by the definition, at the pose found
+  Pose least_squares;  ///< the pose of that fit
+  std::vector<ProbePoint> counted;  ///< points that count in the mode's fit
   [[nodiscard]] bool answered() const;
   /// Empty: all is well. Else what is wrong with an answer.
   std::string complaint;

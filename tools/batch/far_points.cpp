@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/geometry/nearest/global_projection.hpp"
+#include "tools/batch/outliers.hpp"
 #include "tools/search/pose_search.hpp"
 
 namespace bladefit {
@@ -14,12 +15,6 @@ constexpr std::size_t kLooks = 25;
 /// [half diagonals] What is farther from the box of the design than the first, or from its surface than the second, is
 /// far.
 constexpr double kFarFromBox = 0.5, kFarFromSurface = 0.02;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Half of the points are farther from the box of the control points than this at the pose [mm].
 double distance_from_box(const Surface& surface, const std::vector<ProbePoint>& points, const Pose& pose) {

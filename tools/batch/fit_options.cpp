@@ -1,13 +1,10 @@
 #include "tools/batch/fit_options.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <type_traits>
-#include <variant>
 
 #include "core/localizer/check_config.hpp"
 #include "drivers/text/units.hpp"
@@ -18,22 +15,6 @@
 
 namespace bladefit {
 namespace {
-
-/// The flag of one option; what it is given is parsed at once.
-template <typename Kind>
-CLI::Option* add_flag(CLI::App& command, const FitOption& option, const Kind& kind, FitSettings& flags) {
-  using Given = typename Kind::Given;
-  const std::string flag = flag_of(option), help(option.help);
-  const auto take = [flag, &kind, &flags](const Given& given) {
-    if (const Failure error = set(kind, given, flags)) throw ToolError(flag + ": " + error.message);
-  };
-  if constexpr (std::is_same_v<Given, bool>) {
-    return command.add_flag_callback(
-        flag, [take] { take(true); }, help);
-  } else {
-    return command.add_option_function<Given>(flag, take, help)->allow_extra_args(false);
-  }
-}
 
 void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan& plan) {
   const bool inch_design = design.header().design_unit == static_cast<std::uint32_t>(DesignUnit::inch);
@@ -146,12 +127,6 @@ void check_probe(const FitPlan& plan, const DesignImage& design) {
 }
 
 }  // namespace
-
-void add_fit_options(CLI::App& command, FitSettings& flags) {
-  for (const FitOption& option : fit_options()) {
-    std::visit([&](const auto& kind) { add_flag(command, option, kind, flags)->group("Fit"); }, option.kind);
-  }
-}
 
 std::vector<std::string> names_of_locked(std::uint8_t locked) {
   std::vector<std::string> names;

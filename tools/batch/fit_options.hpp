@@ -10,15 +10,7 @@
 #include "tools/design/load_design.hpp"
 #include "tools/files/tool_error.hpp"
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace bladefit {
-
-/// Adds a flag for each row of fit_options(), which `localize` and `run` share; what is given on the command line goes
-/// to `flags`. A value that cannot be used throws ToolError while the command line is read.
-void add_fit_options(CLI::App& command, FitSettings& flags);
 
 /// A fit ready to run.
 struct FitPlan {

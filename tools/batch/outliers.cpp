@@ -23,13 +23,13 @@ double normal_quantile(double probability) {
   return high;
 }
 
+}  // namespace
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-}  // namespace
 
 Outliers find_outliers(const FitReport& report, double size_mm, const std::vector<Verdict>& verdicts,
                        const std::vector<ProbePoint>& points) {

@@ -6,6 +6,9 @@
 
 namespace bladefit {
 
+/// The middle one of the values, the upper of two; there is at least one.
+[[nodiscard]] double median(std::vector<double> values);
+
 /// Studentised residuals of a robust fit, d sqrt(w) / (s sqrt(1 - h)) with the leverage h of the point and s = 1.4826
 /// times the median distance, which outliers do not raise. A point is an outlier beyond the limit that one of all
 /// points exceeds by chance in 5 of 100 fits with normal errors (Bonferroni). Where s is that of rounding nobody is

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "core/algebra/symmetric_eigen.hpp"
 #include "drivers/text/csv_table.hpp"
 #include "tools/files/read_text.hpp"
 #include "tools/files/tool_error.hpp"
@@ -33,7 +33,7 @@ struct Pair {
   std::string name;
 };
 
-using Points = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+using Points = std::vector<Vec3>;
 
 Pair parse_pair(const CsvRow& row) {
   Pair pair;
@@ -60,28 +60,58 @@ std::vector<Pair> parse_pairs(std::string_view text, const std::string& name) {
   return pairs;
 }
 
+Vec3 middle_of(const Points& points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+/// Sum of (a - middle of a) (b - middle of b)^T.
+Mat3 products_of(const Points& a, const Points& b) {
+  const Vec3 middle_a = middle_of(a), middle_b = middle_of(b);
+  Mat3 sum = Mat3::Zero();
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - middle_a) * (b[k] - middle_b).transpose();
+  return sum;
+}
+
 /// Three points or more that span a plane at least fix all six degrees of freedom.
 void check_spread(const Points& points, const char* what, const std::string& path) {
-  const Points centred = points.colwise() - points.rowwise().mean();
-  const Eigen::Vector3d extents = Eigen::JacobiSVD<Eigen::Matrix3d>(centred * centred.transpose()).singularValues();
-  if (extents[1] > kInLine * kInLine * extents[0]) return;
+  Mat6 squares = Mat6::Zero();
+  squares.topLeftCorner<3, 3>() = products_of(points, points);
+  const Vec6 extents = symmetric_eigen(squares).values;
+  if (extents[4] > kInLine * kInLine * extents[5]) return;
   throw ToolError(
       fmt::format("{}: the {} points stand in one line, which leaves the turn about it open; add a pair "
                   "away from the line",
                   path, what));
 }
 
+/// The rigid motion that brings the measured points nearest to their places, in root mean squares: its quaternion is
+/// the eigenvector of the greatest eigenvalue (Horn 1987).
+Pose motion_between(const Points& measured, const Points& design) {
+  const Mat3 s = products_of(measured, design);
+  Mat6 form = -(2.0 * s.norm() + 1.0) * Mat6::Identity();  // below all eigenvalues of the first four rows
+  form.topLeftCorner<4, 4>() << s(0, 0) + s(1, 1) + s(2, 2), s(1, 2) - s(2, 1), s(2, 0) - s(0, 2), s(0, 1) - s(1, 0),
+      s(1, 2) - s(2, 1), s(0, 0) - s(1, 1) - s(2, 2), s(0, 1) + s(1, 0), s(2, 0) + s(0, 2),  //
+      s(2, 0) - s(0, 2), s(0, 1) + s(1, 0), s(1, 1) - s(0, 0) - s(2, 2), s(1, 2) + s(2, 1),  //
+      s(0, 1) - s(1, 0), s(2, 0) + s(0, 2), s(1, 2) + s(2, 1), s(2, 2) - s(0, 0) - s(1, 1);
+  const Vec6 q = symmetric_eigen(form).vectors.col(5);
+  Pose pose;
+  // Through its Euler angles the rotation is orthogonal to rounding.
+  pose.rotation = rotation_of(euler_angles(Mat3(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix())));
+  pose.translation = middle_of(design) - pose.rotation * middle_of(measured);
+  return pose;
+}
+
 /// What remains between each measured point and its place.
 std::vector<double> rests_of(const Pose& pose, const Points& measured, const Points& design) {
   std::vector<double> rests;
-  for (Eigen::Index k = 0; k < measured.cols(); ++k)
-    rests.push_back((apply(pose, measured.col(k)) - Vec3(design.col(k))).norm());
+  for (std::size_t k = 0; k < measured.size(); ++k) rests.push_back((apply(pose, measured[k]) - design[k]).norm());
   return rests;
 }
 
 double spread_of(const Points& points) {
-  const Points centred = points.colwise() - points.rowwise().mean();
-  return centred.norm() / std::sqrt(static_cast<double>(points.cols()));
+  return std::sqrt(products_of(points, points).trace() / static_cast<double>(points.size()));
 }
 
 /// Pairs that no rigid motion brings together are no start.
@@ -103,22 +133,16 @@ StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
   const std::vector<Pair> pairs = parse_pairs(read_text(path, "start pairs"), path);
   if (pairs.size() < 3)
     throw ToolError(fmt::format("{}: {} pairs, at least 3 are needed; add a line for each pair", path, pairs.size()));
-  Points measured(3, pairs.size()), design(3, pairs.size());
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
-      measured(row, column) = mm_per_unit * pairs[k].numbers[i];
-      design(row, column) = mm_per_unit * pairs[k].numbers[3 + i];
-    }
+  Points measured, design;
+  for (const Pair& pair : pairs) {
+    measured.push_back(mm_per_unit * Vec3(pair.numbers.data()));
+    design.push_back(mm_per_unit * Vec3(pair.numbers.data() + 3));
   }
   check_spread(measured, "measured", path);
   check_spread(design, "design", path);
-  const Eigen::Matrix4d motion = Eigen::umeyama(measured, design, false);
   StartPairs out;
   out.count = pairs.size();
-  // Through its Euler angles the rotation is orthogonal to rounding.
-  out.pose.rotation = rotation_of(euler_angles(Mat3(motion.topLeftCorner<3, 3>())));
-  out.pose.translation = motion.topRightCorner<3, 1>();
+  out.pose = motion_between(measured, design);
   const std::vector<double> rests = rests_of(out.pose, measured, design);
   const auto worst = std::max_element(rests.begin(), rests.end());
   out.worst_mm = *worst;

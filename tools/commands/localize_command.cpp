@@ -12,6 +12,7 @@
 #include "tools/batch/batch_fit.hpp"
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/design_notes.hpp"
+#include "tools/commands/fit_flags.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/read_text.hpp"
 #include "tools/results/json_writer.hpp"

@@ -12,6 +12,7 @@
 #include "drivers/source_uri.hpp"
 #include "tools/batch/batch_fit.hpp"
 #include "tools/commands/design_notes.hpp"
+#include "tools/commands/fit_flags.hpp"
 #include "tools/commands/run_plan.hpp"
 #include "tools/commands/run_stop_flag.hpp"
 #include "tools/files/exit_codes.hpp"

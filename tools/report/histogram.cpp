@@ -11,7 +11,7 @@
 namespace bladefit {
 namespace {
 
-constexpr double kWidth = 1080, kLeft = 56, kRight = 16, kTop = 26, kHeight = 130, kBottom = 40;
+constexpr double kPlotWidth = 1080, kPlotLeft = 56, kPlotRight = 16, kPlotTop = 26, kHeight = 130, kPlotBottom = 40;
 constexpr double kWantedBins = 40;
 constexpr double kLeastBar = 2;  // so that a single point among thousands is seen
 constexpr double kFarAway = 4;   // times the distance that nine of ten points keep to, or the widest tolerance
@@ -28,7 +28,7 @@ struct Bins {
     return static_cast<std::size_t>(std::clamp(place, 0.0, 2.0 * half - 1.0));
   }
   [[nodiscard]] double x(double distance) const {
-    return kLeft + (distance + limit()) / (2 * limit()) * (kWidth - kLeft - kRight);
+    return kPlotLeft + (distance + limit()) / (2 * limit()) * (kPlotWidth - kPlotLeft - kPlotRight);
   }
 };
 
@@ -68,7 +68,8 @@ std::string tolerance_lines(const Bins& bins, double tolerance, double top) {
 }
 
 std::string axis(const Bins& bins, double bottom, const std::string& title) {
-  std::string svg = fmt::format("<path class=\"frame\" d=\"M{} {:.1f}H{}\"/>", kLeft, bottom, kWidth - kRight);
+  std::string svg =
+      fmt::format("<path class=\"frame\" d=\"M{} {:.1f}H{}\"/>", kPlotLeft, bottom, kPlotWidth - kPlotRight);
   const double step = round_step_above(bins.limit() / 5);
   const int ticks = static_cast<int>(std::floor(bins.limit() / step * (1.0 + 1e-12)));
   for (int k = -ticks; k <= ticks; ++k) {
@@ -85,10 +86,10 @@ std::string bars(const Bins& bins, const std::vector<double>& distances, const C
   std::vector<std::size_t> counts(static_cast<std::size_t>(2 * bins.half));
   for (const double distance : distances) ++counts.at(bins.index(distance));
   const auto most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
-  std::string svg = fmt::format("<text class=\"tick\" text-anchor=\"end\" x=\"{}\" y=\"{:.1f}\">{}</text>", kLeft - 6,
-                                bottom - kHeight + 5, most);
-  svg +=
-      fmt::format("<text class=\"tick\" text-anchor=\"end\" x=\"{}\" y=\"{:.1f}\">0</text>\n", kLeft - 6, bottom + 4);
+  std::string svg = fmt::format("<text class=\"tick\" text-anchor=\"end\" x=\"{}\" y=\"{:.1f}\">{}</text>",
+                                kPlotLeft - 6, bottom - kHeight + 5, most);
+  svg += fmt::format("<text class=\"tick\" text-anchor=\"end\" x=\"{}\" y=\"{:.1f}\">0</text>\n", kPlotLeft - 6,
+                     bottom + 4);
   for (std::size_t k = 0; k < counts.size(); ++k) {
     if (counts[k] == 0) continue;
     const double from = bins.step * (static_cast<double>(k) - bins.half), middle = from + bins.step / 2;
@@ -113,7 +114,7 @@ std::string distance_histogram(const Result& result, const ColourScale& scale) {
     const std::vector<double> distances = distances_of(result, &region);
     if (distances.empty()) continue;
     const bool leading_edge = region == Region::leading_edge;
-    const double top = bottom + kTop;
+    const double top = bottom + kPlotTop;
     bottom = top + kHeight;
     svg += bars(bins, distances, scale, bottom);
     const double tolerance = (leading_edge ? result.leading_edge : result.rest).tolerance;
@@ -124,10 +125,10 @@ std::string distance_histogram(const Result& result, const ColourScale& scale) {
     title = fmt::format("{}: {} by distance, {}", title, counted(distances.size(), "point"), escaped(result.units));
     if (beyond > 0) title += fmt::format(" ({} farther away, counted in the outermost bars)", beyond);
     svg += axis(bins, bottom, title);
-    bottom += kBottom;
+    bottom += kPlotBottom;
   }
   return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"Histogram of distances\">\n{}</svg>\n",
-                     kWidth, bottom, svg);
+                     kPlotWidth, bottom, svg);
 }
 
 }  // namespace bladefit

@@ -6,17 +6,17 @@
 namespace bladefit {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json row_json(const ReportTable& table, const TableRow& row) {
-  Json values = Json::object();
-  Json unreadable = Json::array();
+OrderedJson row_json(const ReportTable& table, const TableRow& row) {
+  OrderedJson values = OrderedJson::object();
+  OrderedJson unreadable = OrderedJson::array();
   for (std::size_t k = 0; k < row.values.size(); ++k) {
     const std::string& key = table.columns[k].key;
-    values[key] = std::isfinite(row.values[k]) ? Json(row.values[k]) : Json(nullptr);
+    values[key] = std::isfinite(row.values[k]) ? OrderedJson(row.values[k]) : OrderedJson(nullptr);
     if (std::isnan(row.values[k])) unreadable.push_back(key);
   }
-  Json json = {{"label", row.label}, {"source", row.source}};
+  OrderedJson json = {{"label", row.label}, {"source", row.source}};
   if (!row.data.empty()) json["data"] = row.data;
   if (!row.subset.empty()) json["subset"] = row.subset;
   json["values"] = values;
@@ -24,11 +24,11 @@ Json row_json(const ReportTable& table, const TableRow& row) {
   return json;
 }
 
-Json table_json(const ReportTable& table) {
-  Json json = Json::object();
+OrderedJson table_json(const ReportTable& table) {
+  OrderedJson json = OrderedJson::object();
   if (table.number > 0) json["number"] = table.number;
   json["title"] = table.title;
-  json["rows"] = Json::array();
+  json["rows"] = OrderedJson::array();
   for (const TableRow& row : table.rows) json["rows"].push_back(row_json(table, row));
   json["notes"] = table.notes;
   return json;
@@ -37,7 +37,7 @@ Json table_json(const ReportTable& table) {
 }  // namespace
 
 std::string tables_json(const std::vector<ReportTable>& tables) {
-  Json json = {{"units", {{"length", "in"}, {"angle", "rad"}, {"time", "s"}}}, {"tables", Json::array()}};
+  OrderedJson json = {{"units", {{"length", "in"}, {"angle", "rad"}, {"time", "s"}}}, {"tables", OrderedJson::array()}};
   for (const ReportTable& table : tables) json["tables"].push_back(table_json(table));
   return json.dump(1) + "\n";
 }

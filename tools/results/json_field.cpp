@@ -6,13 +6,9 @@
 #include <limits>
 
 #include "tools/files/tool_error.hpp"
+#include "tools/results/words.hpp"
 
 namespace bladefit {
-namespace {
-
-constexpr const char* kRemedy = "the file is damaged or foreign; run the session again with the same --session";
-
-}  // namespace
 
 JsonField JsonField::operator[](const char* key) const {
   const std::string inner = name_.empty() ? key : name_ + "." + key;
@@ -54,7 +50,8 @@ std::string JsonField::text() const {
 }
 
 void JsonField::fail(const std::string& name, const std::string& what) const {
-  throw ToolError(fmt::format("{}: field {} {}; {}", file_, name.empty() ? "(whole file)" : name, what, kRemedy));
+  throw ToolError(
+      fmt::format("{}: field {} {}; {}", file_, name.empty() ? "(whole file)" : name, what, kDamagedFileRemedy));
 }
 
 nlohmann::json parse_json(const std::string& path, const std::string& text) {
@@ -63,7 +60,7 @@ nlohmann::json parse_json(const std::string& path, const std::string& text) {
   } catch (const nlohmann::json::parse_error& error) {
     const std::size_t end = std::min(error.byte, text.size());
     const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    throw ToolError(fmt::format("{}:{}: is no JSON text; {}", path, lines + 1, kRemedy));
+    throw ToolError(fmt::format("{}:{}: is no JSON text; {}", path, lines + 1, kDamagedFileRemedy));
   }
 }
 

@@ -12,8 +12,6 @@
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kQuotedCharacters = 40;
-
 double unit_of(const JsonField& units) {
   const std::string name = units.text();
   if (name == "mm") return 1.0;

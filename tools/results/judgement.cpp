@@ -17,30 +17,24 @@ bool has_tolerance(const ResultPoint& point) { return std::isfinite(point.tolera
 /// What the points of a result came to.
 struct Counts {
   std::uint32_t out = 0, pending = 0, undecided = 0;
+  ZoneCount zones;
 };
 
-Counts counts_of(const Result& result) {
-  Counts counts;
-  for (const ResultPoint& point : result.points) {
-    if (point.state == PointState::out) ++counts.out;
-    if (!has_tolerance(point)) continue;
-    if (point.state == PointState::pending) ++counts.pending;
-    if (point.state == PointState::undecided) ++counts.undecided;
-  }
-  return counts;
-}
-
-ZoneCount zones_of(const Result& result, const ToleranceMap& map) {
-  ZoneCount zones(map);
+Counts counts_of(const Result& result, const ToleranceMap& map) {
+  Counts counts{.zones = ZoneCount(map)};
   for (const ResultPoint& point : result.points) {
     Verdict verdict;
     verdict.state = point.state;
     verdict.foot.patch = point.patch;
     verdict.foot.u = point.u;
     verdict.foot.v = point.v;
-    zones.count(verdict, 1);
+    counts.zones.count(verdict, 1);
+    if (point.state == PointState::out) ++counts.out;
+    if (!has_tolerance(point)) continue;
+    if (point.state == PointState::pending) ++counts.pending;
+    if (point.state == PointState::undecided) ++counts.undecided;
   }
-  return zones;
+  return counts;
 }
 
 std::uint32_t records_in(const std::vector<SequenceRange>& ranges) {
@@ -89,14 +83,12 @@ std::string end_text(FitEnd ended) {
   switch (ended) {
     case FitEnd::feet_changing:
       return "feet change from side to side of the blade with every pose; leave out the points that are farthest off, "
-             "or "
-             "give --ignore-approach";
+             "or give --ignore-approach";
     case FitEnd::regions_restless:
       return "points move between the regions with every pose; widen --transition, or give --regions fixed";
     case FitEnd::program_failed:
       return "the mode has no solution to working precision; leave out the points that are farthest off, or fit with "
-             "the "
-             "mode least_squares";
+             "the mode least_squares";
     case FitEnd::feet_unproven:
     case FitEnd::sweeps_used_up:
     case FitEnd::none:
@@ -108,8 +100,8 @@ std::string end_text(FitEnd ended) {
 /// What happened, and what to do.
 class Texts {
  public:
-  Texts(const Result& result, const LocalizerConfig& config, const StreamEvidence& stream)
-      : result_(result), config_(config), stream_(stream), counts_(counts_of(result)) {}
+  Texts(const Result& result, const Counts& counts, const ToleranceMap& map, const StreamEvidence& stream)
+      : result_(result), counts_(counts), map_(map), stream_(stream) {}
 
   [[nodiscard]] std::string of(Reason reason) const {
     switch (reason) {
@@ -118,8 +110,7 @@ class Texts {
       case Reason::underdetermined:
         return fmt::format(
             "{} of {} free degrees of freedom follow from the {} points that count; probe more points, spread over "
-            "both "
-            "sides and the whole length of the blade",
+            "both sides and the whole length of the blade",
             result_.details->determined, result_.details->free, result_.all.count);
       case Reason::unproven:
         return fmt::format("{} feet could not be proven the nearest; measure these points again or leave them out",
@@ -132,7 +123,7 @@ class Texts {
             "blade away; probe them again",
             stream_.refused.size(), stream_.refused.front());
       case Reason::zone_not_probed:
-        return zone_text(zones_of(result_, config_.tolerance), config_.tolerance);
+        return zone_text(counts_.zones, map_);
       case Reason::pending:
         return fmt::format(
             "{} points are not determined well enough to be judged; probe more points near them and over the whole "
@@ -146,20 +137,24 @@ class Texts {
       case Reason::unfinished:
         return "the session ended before the machine said that its program is finished; run it again with the same "
                "session folder to go on";
-      default:
-        return std::string(word_of(reason));
+      case Reason::wrong_units:
+      case Reason::mirrored:
+      case Reason::ambiguous:
+      case Reason::far_start:
+        break;  // whoever finds one of these tells it
     }
+    return {};
   }
 
  private:
   const Result& result_;
-  const LocalizerConfig& config_;
+  const Counts& counts_;
+  const ToleranceMap& map_;
   const StreamEvidence& stream_;
-  Counts counts_;
 };
 
-BladeEvidence evidence_of(const Result& result, const LocalizerConfig& config, const StreamEvidence& stream) {
-  const Counts counts = counts_of(result);
+BladeEvidence evidence_of(const Result& result, const Counts& counts, const LocalizerConfig& config,
+                          const StreamEvidence& stream) {
   return {.converged = result.status == word_of(FitStatus::converged),
           .infeasible = result.status == word_of(FitStatus::infeasible),
           .determined = result.details->determined,
@@ -171,7 +166,7 @@ BladeEvidence evidence_of(const Result& result, const LocalizerConfig& config, c
           .undecided = counts.undecided,
           .lost = records_in(stream.lost) + (stream.lost_unnumbered ? 1U : 0U),
           .refused = static_cast<std::uint32_t>(stream.refused.size()),
-          .zones_missed = zones_of(result, config.tolerance).missed(),
+          .zones_missed = counts.zones.missed(),
           .finished = stream.finished,
           .doubts = result.verdict.codes()};
 }
@@ -187,8 +182,9 @@ void take_back_judgement(Result& result) {
 }  // namespace
 
 void judge(Result& result, const LocalizerConfig& config, const StreamEvidence& stream) {
-  const BladeVerdict verdict = judge_blade(evidence_of(result, config, stream));
-  const Texts texts(result, config, stream);
+  const Counts counts = counts_of(result, config.tolerance);
+  const BladeVerdict verdict = judge_blade(evidence_of(result, counts, config, stream));
+  const Texts texts(result, counts, config.tolerance, stream);
   const Reasons told = result.verdict.codes();
   for (std::size_t k = 0; k < kReasonWords.size(); ++k) {
     const auto reason = static_cast<Reason>(k);

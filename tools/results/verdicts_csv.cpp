@@ -33,8 +33,6 @@ constexpr std::array<std::string_view, 18> kColumns = {"sequence",
                                                        "distance_before_mm",
                                                        "left_out",
                                                        "beyond_mm"};
-constexpr std::size_t kQuotedCharacters = 40;
-constexpr const char* kRemedy = "the file is damaged or foreign; run the session again with the same --session";
 
 /// One line of the file, cut at its commas.
 struct Row {
@@ -43,7 +41,7 @@ struct Row {
   std::array<std::string_view, kColumns.size()> cells{};
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw ToolError(fmt::format("{}:{}: {}; {}", path, line, what, kRemedy));
+    throw ToolError(fmt::format("{}:{}: {}; {}", path, line, what, kDamagedFileRemedy));
   }
 
   [[noreturn]] void refuse_cell(std::size_t column, const char* wanted) const {

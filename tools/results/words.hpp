@@ -39,4 +39,10 @@ template <typename Value, std::size_t count>
   return std::nullopt;
 }
 
+/// What a person can do about a file of a session that cannot be read.
+inline constexpr const char* kDamagedFileRemedy =
+    "the file is damaged or foreign; run the session again with the same --session";
+/// Characters of a wrong text that a message repeats.
+inline constexpr std::size_t kQuotedCharacters = 40;
+
 }  // namespace bladefit

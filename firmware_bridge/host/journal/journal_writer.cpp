@@ -5,7 +5,7 @@
 namespace bladefit {
 namespace {
 
-constexpr std::chrono::milliseconds kWait{100};
+constexpr std::chrono::milliseconds kFlushWait{100};
 
 struct Group {
   std::array<StreamEvent, kJournalGroup> events;
@@ -30,7 +30,7 @@ void write_journal(Journal& journal, HostShared& shared) {
     take_group(shared.to_journal.ring, group);
     if (group.count == 0) {
       if (closed) return;
-      shared.to_journal.wakeup.wait(kWait);
+      shared.to_journal.wakeup.wait(kFlushWait);
       continue;
     }
     if (const Failure error = journal.append(std::span(group.events).first(group.count))) {

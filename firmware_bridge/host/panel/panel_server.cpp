@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kHeaderSize = 7;
 constexpr std::size_t kLengthOffset = 4;
 constexpr std::size_t kUnitOffset = 6;
-constexpr std::uint8_t kExceptionFlag = 0x80;
+constexpr std::uint8_t kRefusedFlag = 0x80;
 constexpr std::uint8_t kNoSuchUnit = 11;
 constexpr int kAnswersPerTurn = 8;
 constexpr std::chrono::seconds kSilentLongEnough{5};
@@ -174,7 +174,7 @@ bool PanelServer::answer(Client& client, const PanelImage& image,
     const std::vector<std::uint8_t> pdu =
         unit_is_ours(header[kUnitOffset])
             ? answer_panel_request(request, image, settings_.commands, commands)
-            : std::vector<std::uint8_t>{static_cast<std::uint8_t>(request[0] | kExceptionFlag), kNoSuchUnit};
+            : std::vector<std::uint8_t>{static_cast<std::uint8_t>(request[0] | kRefusedFlag), kNoSuchUnit};
     client.unsent.insert(client.unsent.end(), header, header + kLengthOffset);
     client.unsent.push_back(static_cast<std::uint8_t>((pdu.size() + 1) >> 8U));
     client.unsent.push_back(static_cast<std::uint8_t>((pdu.size() + 1) & 0xFFU));

@@ -3,9 +3,9 @@
 #include "tools/batch/fit_options.hpp"
 
 #include <gtest/gtest.h>
-#include <CLI/CLI.hpp>
-
 #include <string>
+
+#include "tools/commands/fit_flags.hpp"
 
 namespace bladefit {
 namespace {

@@ -180,10 +180,18 @@ void set_middle(const SurfacePoint& middle, ImageBounds& bounds) {
   }
 }
 
+/// The shortest turn that takes the x axis along a direction.
+Eigen::Matrix3d turn_of_x(const Vec3& direction) {
+  const Vec3 to = direction.normalized();
+  if (to[0] < -1.0 + 1e-12) return Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal();
+  const double size = std::sqrt((1.0 + to[0]) * 2.0), over = 1.0 / size;
+  return Eigen::Quaterniond(0.5 * size, 0.0, -to[2] * over, to[1] * over).toRotationMatrix();
+}
+
 /// A first derivative as a multiple of which it is that in the middle along the latter: where one is at right angles
 /// to something, so is the other, and how fast the parameters run is out of it. As it was where that is not so.
 IntervalVector turned(const IntervalVector& derivative, const Vec3& middle) {
-  const Eigen::Matrix3d frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), middle).toRotationMatrix();
+  const Eigen::Matrix3d frame = turn_of_x(middle);
   const auto along = [&](Eigen::Index axis) {
     Interval sum;
     for (std::size_t k = 0; k < 3; ++k) sum = sum + frame(static_cast<Eigen::Index>(k), axis) * derivative[k];

@@ -1,0 +1,36 @@
+#include "tools/commands/fit_flags.hpp"
+
+#include <string>
+#include <type_traits>
+#include <variant>
+
+#include "tools/files/tool_error.hpp"
+
+namespace bladefit {
+namespace {
+
+/// The flag of one option; what it is given is parsed at once.
+template <typename Kind>
+CLI::Option* add_flag(CLI::App& command, const FitOption& option, const Kind& kind, FitSettings& flags) {
+  using Given = typename Kind::Given;
+  const std::string flag = flag_of(option), help(option.help);
+  const auto take = [flag, &kind, &flags](const Given& given) {
+    if (const Failure error = set(kind, given, flags)) throw ToolError(flag + ": " + error.message);
+  };
+  if constexpr (std::is_same_v<Given, bool>) {
+    return command.add_flag_callback(
+        flag, [take] { take(true); }, help);
+  } else {
+    return command.add_option_function<Given>(flag, take, help)->allow_extra_args(false);
+  }
+}
+
+}  // namespace
+
+void add_fit_options(CLI::App& command, FitSettings& flags) {
+  for (const FitOption& option : fit_options()) {
+    std::visit([&](const auto& kind) { add_flag(command, option, kind, flags)->group("Fit"); }, option.kind);
+  }
+}
+
+}  // namespace bladefit

@@ -1,0 +1,12 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+#include "config/fit_option.hpp"
+
+namespace bladefit {
+
+/// Adds a flag for each row of fit_options(), which `localize` and `run` share; what is given on the command line goes
+/// to `flags`. A value that cannot be used throws ToolError while the command line is read.
+void add_fit_options(CLI::App& command, FitSettings& flags);
+
+}  // namespace bladefit
