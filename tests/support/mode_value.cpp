@@ -38,6 +38,11 @@ double ModeValue::at(const Pose& pose) const {
   return config_.mode == FitMode::range ? most - least : ratio;
 }
 
+bool ModeValue::same_weights(const Pose& one, const Pose& other) const {
+  return std::all_of(points_.begin(), points_.end(),
+                     [&](const ProbePoint& point) { return weight(foot(point, one)) == weight(foot(point, other)); });
+}
+
 double ModeValue::largest_ratio(const Pose& pose) const {
   double ratio = 0.0;
   for (const ProbePoint& point : points_) {

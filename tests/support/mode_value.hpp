@@ -21,6 +21,8 @@ class ModeValue {
   [[nodiscard]] double at(const Pose& pose) const;
   /// The largest |d| / w.
   [[nodiscard]] double largest_ratio(const Pose& pose) const;
+  /// Whether each point has the same bound at both poses.
+  [[nodiscard]] bool same_weights(const Pose& one, const Pose& other) const;
   [[nodiscard]] const std::vector<ProbePoint>& points() const { return points_; }
   [[nodiscard]] const CompiledDesign& design() const { return design_; }
   [[nodiscard]] const LocalizerConfig& config() const { return config_; }
