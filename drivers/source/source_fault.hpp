@@ -25,6 +25,12 @@ inline void note_unnumbered_loss(SourceStatus& status, const std::string& text) 
   note_loss(status, text);
 }
 
+/// Publishes what the user should know once, as a fault and by itself; no record is lost by it.
+inline void note_remark(SourceStatus& status, const std::string& text) {
+  status.remarks.push_back(text);
+  note_fault(status, text);
+}
+
 /// Which records are lost, in the operator's words.
 inline std::string lost_points(std::uint32_t first, std::uint32_t last, const std::string& why) {
   if (first == last) return "point " + std::to_string(first) + " is lost: " + why + "; probe it again";
