@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace bladefit {
 namespace {
@@ -13,11 +14,19 @@ bool without_decimal_marks(const DroPoint& point) {
   return std::ranges::none_of(point, [](const DroNumber& number) { return number.marked; });
 }
 
-/// Every number has as many decimals, and as many whole digits where zeros fill them up.
+/// Digits to which zeros fill up the whole part of a number; 0 = of none.
+std::size_t padded_digits(const DroPoint& point) {
+  std::size_t digits = 0;
+  for (const DroNumber& number : point) {
+    if (number.zero_padded) digits = std::max(digits, number.whole_digits);
+  }
+  return digits;
+}
+
+/// Every number has as many decimals, and as many whole digits as zeros fill up one of them.
 bool is_uniform(const DroPoint& point) {
-  const bool padded = std::ranges::any_of(point, [](const DroNumber& number) { return number.zero_padded; });
   return std::ranges::all_of(point, [&](const DroNumber& number) {
-    return number.decimals == point[0].decimals && (!padded || number.whole_digits == point[0].whole_digits);
+    return number.decimals == point[0].decimals && number.whole_digits >= padded_digits(point);
   });
 }
 
@@ -39,40 +48,40 @@ std::string ReadoutFormat::difference(const DroPoint& reference, const DroPoint&
   return {};
 }
 
-/// Empty: no number is shorter than those before it, where they have a fixed width.
-std::string ReadoutFormat::shortness(const DroPoint& point) {
+/// Empty: no number is shorter than zeros or blanks would have filled it up.
+std::string ReadoutFormat::shortness(const DroPoint& point) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const DroNumber& now = point[axis];
-    zero_padded_ |= now.zero_padded;
-    blank_padded_ |= reference_ && now.width == widest_[axis].width && now.pad != widest_[axis].pad;
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const DroNumber &now = point[axis], &widest = widest_[axis];
-    const bool fewer_digits = zero_padded_ && now.whole_digits < widest.whole_digits;
-    const bool narrower = blank_padded_ && now.width < widest.width;
-    if (!fewer_digits && !narrower) continue;
+    if (point[axis].whole_digits >= least_digits_[axis] && point[axis].width >= least_width_[axis]) continue;
     return fmt::format("{} takes fewer characters than before: {}", axis_letter(axis), kLostCharacter);
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    DroNumber& widest = widest_[axis];
-    const std::size_t digits = std::max(widest.whole_digits, point[axis].whole_digits);
-    if (point[axis].width >= widest.width || !blank_padded_) widest = point[axis];
-    widest.whole_digits = digits;
   }
   return {};
 }
 
-void ReadoutFormat::settle_waiting(const DroPoint& point, DroOutcome& outcome) {
-  const DroPoint first = *std::exchange(waiting_, std::nullopt);
-  const std::string other = difference(point, first);
-  if (!other.empty()) return outcome.losses.push_back(other);
-  reference_ = first;
-  static_cast<void>(shortness(first));
-  outcome.points.push_back(first);
+/// Takes a good point and learns from it. A 0 in front of other digits, or as wide a number behind more blanks, shows
+/// to how many characters numbers are filled up.
+void ReadoutFormat::accept(const DroPoint& point, DroOutcome& outcome) {
+  const bool alike = is_uniform(point);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const DroNumber& number = point[axis];
+    const std::size_t digits = alike ? padded_digits(point) : number.zero_padded ? number.whole_digits : 0;
+    least_digits_[axis] = std::max(least_digits_[axis], digits);
+    const bool filled_up = reference_ && number.width == last_[axis].width && number.pad != last_[axis].pad;
+    if (filled_up) least_width_[axis] = number.width;
+  }
+  if (!reference_) reference_ = point;
+  last_ = point;
+  outcome.points.push_back(point);
 }
 
 void ReadoutFormat::take(const DroPoint& point, DroOutcome& outcome) {
-  if (waiting_) settle_waiting(point, outcome);
+  if (const std::optional<DroPoint> first = std::exchange(waiting_, std::nullopt)) {
+    const std::string other = difference(point, *first);
+    if (other.empty()) {
+      accept(*first, outcome);
+    } else {
+      outcome.losses.push_back(other);
+    }
+  }
   if (settings_.fixed_decimals && !settings_.scale && without_decimal_marks(point)) {
     return outcome.losses.push_back(
         "no number has a decimal mark (set scale to the value of one count, such as 0.001)");
@@ -81,11 +90,10 @@ void ReadoutFormat::take(const DroPoint& point, DroOutcome& outcome) {
     waiting_ = point;
     return outcome.faults.push_back("its numbers differ in their digits: it waits until the next point has shown why");
   }
-  const std::string other = reference_ ? difference(*reference_, point) : std::string();
-  const std::string shorter = other.empty() ? shortness(point) : std::string();
-  if (!reference_) reference_ = point;
-  if (other.empty() && shorter.empty()) return outcome.points.push_back(point);
-  outcome.losses.push_back(other.empty() ? shorter : other);
+  std::string fault = reference_ ? difference(*reference_, point) : std::string();
+  if (fault.empty()) fault = shortness(point);
+  if (fault.empty()) return accept(point, outcome);
+  outcome.losses.push_back(std::move(fault));
 }
 
 }  // namespace bladefit

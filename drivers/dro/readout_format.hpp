@@ -19,7 +19,7 @@ struct DroOutcome {
 };
 
 /// How a read-out prints its numbers, learned from its points, so that one that has lost a character is seen: another
-/// number of decimals, other marks, fewer digits or characters where numbers are filled up with zeros or blanks.
+/// number of decimals, other marks, fewer digits or characters than those to which zeros or blanks fill numbers up.
 class ReadoutFormat {
  public:
   explicit ReadoutFormat(const DroSettings& settings) : settings_(settings) {}
@@ -33,14 +33,15 @@ class ReadoutFormat {
 
  private:
   [[nodiscard]] std::string difference(const DroPoint& reference, const DroPoint& point) const;
-  [[nodiscard]] std::string shortness(const DroPoint& point);
-  void settle_waiting(const DroPoint& point, DroOutcome& outcome);
+  [[nodiscard]] std::string shortness(const DroPoint& point) const;
+  void accept(const DroPoint& point, DroOutcome& outcome);
 
   const DroSettings& settings_;
   std::optional<DroPoint> reference_;  ///< the first good point
   std::optional<DroPoint> waiting_;
-  DroPoint widest_{};  ///< largest width and whole digits of each axis, and the pad of the widest
-  bool zero_padded_ = false, blank_padded_ = false;
+  DroPoint last_{};  ///< the newest good point
+  /// Least of each axis, where zeros or blanks were seen to fill numbers up to it; 0 = not so far.
+  std::array<std::size_t, 3> least_digits_{}, least_width_{};
 };
 
 }  // namespace bladefit

@@ -206,6 +206,19 @@ TEST(DroFormat, ANumberNeedNotBeFilledUp) {
   EXPECT_EQ(read_out.points().size(), 3U);
 }
 
+TEST(DroFormat, ALongNumberAmongFilledUpOnesIsNoMeasureForThem) {
+  DroSettings counts;
+  counts.scale = 0.0001;
+  ReadOut read_out(counts);
+  read_out.lines({"X 78715 Y 132451 Z 08442", "X 08715 Y 32451 Z 108442", "X 78715 Y 132451 Z 18442"});
+  EXPECT_EQ(read_out.points().size(), 3U);
+  read_out.lines({"X 7871 Y 132451 Z 18442"});
+  EXPECT_TRUE(read_out.loss_says("X takes fewer characters"));
+  ReadOut blanks;
+  blanks.lines({"X   7.5 Y  7.5 Z  7.5", "X  17.5 Y  7.5 Z  7.5", "X 1234.5 Y  7.5 Z  7.5", "X   7.5 Y  7.5 Z  7.5"});
+  EXPECT_EQ(blanks.points().size(), 4U);
+}
+
 TEST(DroFormat, TheFirstPointWaitsWhereItsNumbersDiffer) {
   ReadOut cut;
   cut.lines({"X 7.8702 Y 3.9861 Z 7.51"});
