@@ -44,7 +44,7 @@ void read_line(TableReader table, SerialLineSettings& line) {
 }
 
 void read_modbus(TableReader table, ModbusSettings& modbus) {
-  table.read_whole("unit", modbus.unit, {1, 255});
+  table.read_whole("unit", modbus.unit, {0, 255});
   table.read_whole("batch", modbus.batch, {1, 125});
   table.read_ms("poll_period_ms", modbus.poll_period, {0.1, 60000});
   table.read_ms("reply_timeout_ms", modbus.reply_timeout, {1, 60000});

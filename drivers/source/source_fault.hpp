@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -25,9 +26,9 @@ inline void note_unnumbered_loss(SourceStatus& status, const std::string& text) 
   note_loss(status, text);
 }
 
-/// Publishes what the user should know once, as a fault and by itself; no record is lost by it.
+/// Publishes what the user should know, as a fault and by itself, the latter once; no record is lost by it.
 inline void note_remark(SourceStatus& status, const std::string& text) {
-  status.remarks.push_back(text);
+  if (std::ranges::find(status.remarks, text) == status.remarks.end()) status.remarks.push_back(text);
   note_fault(status, text);
 }
 

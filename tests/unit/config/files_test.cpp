@@ -97,24 +97,6 @@ TEST(DeviceFile, DescribesAnotherMap) {
   EXPECT_EQ(map.crc.type, NumberType::uint16);
 }
 
-TEST(DeviceFile, DescribesAReadOut) {
-  const File file(
-      "kind = \"dro\"\n[dro]\nunits = \"in\"\nscale = 0.0001\norder = \"zxy\"\nline_holds = \"axis\"\n"
-      "fixed_decimals = false\nmarks = \"\"\n");
-  SourceSettings settings;
-  ASSERT_EQ(load_device(file.path, settings).message, "");
-  const DroSettings dro = std::get<DroSettings>(settings);
-  EXPECT_EQ(dro.mm_per_unit, 25.4);
-  EXPECT_EQ(dro.scale, 0.0001);
-  EXPECT_EQ(dro.order, "zxy");
-  EXPECT_TRUE(dro.order_given);
-  EXPECT_EQ(dro.layout, DroLayout::single_axes);
-  EXPECT_FALSE(dro.fixed_decimals);
-  EXPECT_EQ(dro.marks, "");
-  ASSERT_EQ(load_device(kShipped + "devices/dro.toml", settings).message, "");
-  EXPECT_FALSE(std::get<DroSettings>(settings).order_given) << "left to the pauses";
-}
-
 struct BadFile {
   const char* text;
   const char* error;  ///< what follows the file's name
@@ -176,10 +158,6 @@ INSTANTIATE_TEST_SUITE_P(
                 ":3: key 'map.record.x.scale': is 0"},
         BadFile{"kind = \"dro\"\n[dro]\norder = \"xxy\"\n",
                 ":3: key 'dro.order': 'xxy' must have each of x, y and z once"},
-        BadFile{"kind = \"dro\"\n[dro]\nlabels = false\nline_holds = \"axis\"\n",
-                ":4: key 'dro.line_holds': is \"axis\" without labels: a lost line would mix two points"},
-        BadFile{"kind = \"dro\"\n[dro]\nmarks = \"RX\"\n", ":3: key 'dro.marks': has 'X', which labels"},
-        BadFile{"kind = \"dro\"\n[dro]\nscale = 0\n", ":3: key 'dro.scale': 0 is out of range"},
         BadFile{"kind = \"dro\"\n[dro]\ndecimal_mark = \",\"\n", ":2: key 'dro.separators': has the decimal mark ','"},
         BadFile{"kind = \"replay\"\n[replay]\nfile = \"\"\n", ":3: key 'replay.file': is empty; give a path"},
         BadFile{"kind = \"replay\"\n[replay]\nunits = \"ft\"\n", ":3: key 'replay.units': 'ft' is none of: mm, in"},
