@@ -44,7 +44,7 @@ void read_line(TableReader table, SerialLineSettings& line) {
 }
 
 void read_modbus(TableReader table, ModbusSettings& modbus) {
-  table.read_whole("unit", modbus.unit, {1, 255});
+  table.read_whole("unit", modbus.unit, {0, 255});
   table.read_whole("batch", modbus.batch, {1, 125});
   table.read_ms("poll_period_ms", modbus.poll_period, {0.1, 60000});
   table.read_ms("reply_timeout_ms", modbus.reply_timeout, {1, 60000});
@@ -77,17 +77,35 @@ void check_order(TableReader& table, const std::string& order) {
     table.fail("order", fmt::format("'{}' must have each of x, y and z once, such as \"xyz\"", order));
 }
 
+/// A mark must not be taken for a label or a number.
+void check_marks(TableReader& table, const std::string& marks) {
+  const std::size_t wrong = marks.find_first_of("xyzXYZ0123456789+-.,");
+  if (wrong != std::string::npos)
+    table.fail("marks", fmt::format("has '{}', which labels and numbers are made of; take it out", marks[wrong]));
+}
+
 void read_dro(TableReader table, DroSettings& dro) {
   read_units(table, dro.mm_per_unit);
+  table.read("scale", dro.scale, NumberRange{1e-12, 1e12});
+  dro.order_given = table.has("order");
   table.read("order", dro.order);
   check_order(table, dro.order);
   table.read("labels", dro.labels);
+  table.read_choice<DroLayout>(
+      "line_holds", dro.layout,
+      {{"auto", DroLayout::open}, {"point", DroLayout::whole_points}, {"axis", DroLayout::single_axes}});
+  if (!dro.labels && dro.layout == DroLayout::single_axes)
+    table.fail("line_holds",
+               "is \"axis\" without labels: a lost line would mix two points; let the read-out send labels");
   table.read("separators", dro.separators);
   if (dro.separators.empty()) table.fail("separators", "is empty; name at least one character, such as \" \"");
   table.read_choice<char>("decimal_mark", dro.decimal_mark, {{".", '.'}, {",", ','}});
   if (dro.separators.find(dro.decimal_mark) != std::string::npos) {
     table.fail("separators", fmt::format("has the decimal mark '{}'; take it out", dro.decimal_mark));
   }
+  table.read("fixed_decimals", dro.fixed_decimals);
+  table.read("marks", dro.marks);
+  check_marks(table, dro.marks);
   table.read("ignore_prefix", dro.ignore_prefix);
   read_reconnect(table, dro.reconnect_first, dro.reconnect_longest);
   table.finish();

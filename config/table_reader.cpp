@@ -146,6 +146,23 @@ bool TableReader::read_number(std::string_view key, double& value, NumberRange r
   return true;
 }
 
+void TableReader::read_numbers(std::string_view key, std::vector<double>& values, NumberRange range) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  double number = 0;
+  if (!node->is_array()) {
+    if (read_number(key, number, range, true)) values.push_back(number);
+    return;
+  }
+  for (const toml::node& item : *node->as_array()) {
+    const std::optional<std::int64_t> whole = item.value_exact<std::int64_t>();
+    if (!whole || static_cast<double>(*whole) < range.low || static_cast<double>(*whole) > range.high) {
+      return fail(key, fmt::format("must be a list of whole numbers from {} to {}", range.low, range.high));
+    }
+    values.push_back(static_cast<double>(*whole));
+  }
+}
+
 void TableReader::read(std::string_view key, bool& value) {
   const toml::node* node = find(key);
   if (node == nullptr) return;

@@ -49,6 +49,14 @@ class TableReader {
     if (read_number(key, number, range, true)) value = static_cast<Integer>(number);
   }
 
+  /// A whole number, or a list of them, each within the range.
+  template <typename Integer>
+  void read_wholes(std::string_view key, std::vector<Integer>& values, NumberRange range) {
+    std::vector<double> numbers;
+    read_numbers(key, numbers, range);
+    for (const double number : numbers) values.push_back(static_cast<Integer>(number));
+  }
+
   /// A text that must be one of `names`; `value` becomes the one of `values` with the same place.
   template <typename Value>
   void read_choice(std::string_view key, Value& value,
@@ -114,6 +122,7 @@ class TableReader {
 
  private:
   [[nodiscard]] const toml::node* find(std::string_view key);
+  void read_numbers(std::string_view key, std::vector<double>& values, NumberRange range);
   [[nodiscard]] bool read_text(std::string_view key, std::string& value);
   [[nodiscard]] bool take_number(std::string_view key, double& number, bool whole);
   [[nodiscard]] bool read_number(std::string_view key, double& value, NumberRange range, bool whole);

@@ -87,16 +87,46 @@ Failure check_record_fields(const CmmMap& map) {
   return {};
 }
 
-WordOrder other(WordOrder order) {
-  return order == WordOrder::high_first ? WordOrder::low_first : WordOrder::high_first;
-}
-
-std::string_view word_order_name(WordOrder order) {
-  return std::ranges::find(kWordOrders, order, &std::pair<std::string_view, WordOrder>::second)->first;
+template <typename Names, typename Order>
+std::string_view name_of(const Names& names, Order order) {
+  return std::ranges::find(names, order, &std::pair<std::string_view, Order>::second)->first;
 }
 
 bool near(double value, double expected) {
   return std::abs(value - expected) <= kTestConstantTolerance * std::abs(expected);
+}
+
+/// The order in which the test constant is the one expected, and the version, where that can tell two of them apart.
+std::optional<RegisterOrder> proven_order(std::span<const std::uint16_t> registers, const CmmMap& map,
+                                          std::uint16_t first) {
+  std::optional<RegisterOrder> proven;
+  for (const auto& [word_name, words] : kWordOrders) {
+    for (const auto& [byte_name, bytes] : kByteOrders) {
+      const RegisterOrder order(words, bytes);
+      if (!near(decode_field(registers, first, map.test_constant, order), map.expected_test_constant)) continue;
+      const bool version_fits =
+          !map.version.present || decode_whole(registers, first, map.version, order) == map.expected_version;
+      if (!proven || version_fits) proven = order;
+      if (version_fits) return proven;
+    }
+  }
+  return proven;
+}
+
+/// The status as bits, whatever it is.
+std::uint16_t status_bits(std::uint16_t status, const CmmMap& map, bool& unknown) {
+  if (map.status_values.empty() || !map.status.present) return status;
+  const auto found = std::ranges::find(map.status_values, status, &std::pair<std::uint16_t, std::uint16_t>::second);
+  unknown = found == map.status_values.end();
+  return unknown ? std::uint16_t{0} : found->first;
+}
+
+/// The settings that make the map's order the proven one.
+std::string order_settings(const CmmMap& map, const RegisterOrder& proven) {
+  std::string text;
+  if (proven.words != map.word_order) text += fmt::format("word_order = \"{}\"", name_of(kWordOrders, proven.words));
+  if (proven.bytes == map.byte_order) return text;
+  return text + fmt::format("{}byte_order = \"{}\"", text.empty() ? "" : " and ", name_of(kByteOrders, proven.bytes));
 }
 
 }  // namespace
@@ -109,11 +139,11 @@ RegisterBlock header_block(const CmmMap& map) {
 CmmHeader decode_header(std::span<const std::uint16_t> registers, const CmmMap& map) {
   const std::uint16_t first = header_block(map).first;
   const auto whole = [&](const NumberField& field, std::uint32_t otherwise) {
-    return field.present ? decode_whole(registers, first, field, map.word_order) : otherwise;
+    return field.present ? decode_whole(registers, first, field, map.order()) : otherwise;
   };
   CmmHeader header;
   header.version = whole(map.version, map.expected_version);
-  header.status = static_cast<std::uint16_t>(whole(map.status, 0));
+  header.status = status_bits(static_cast<std::uint16_t>(whole(map.status, 0)), map, header.status_unknown);
   header.newest = whole(map.newest, 0);
   header.capacity = map.ring_capacity != 0 ? map.ring_capacity : whole(map.capacity, 0);
   header.record_size = whole(map.reported_record_size, map.record_size);
@@ -123,27 +153,27 @@ CmmHeader decode_header(std::span<const std::uint16_t> registers, const CmmMap& 
                                          register_count(map.test_constant.type));
     header.test_constant_provided =
         std::any_of(words.begin(), words.end(), [](std::uint16_t word) { return word != 0; });
-    header.test_constant = decode_number(words, map.test_constant.type, map.word_order);
-    header.test_constant_swapped = decode_number(words, map.test_constant.type, other(map.word_order));
+    header.test_constant = decode_field(registers, first, map.test_constant, map.order());
+    if (!near(header.test_constant, map.expected_test_constant))
+      header.proven_order = proven_order(registers, map, first);
   }
   return header;
 }
 
 Failure check_header(const CmmHeader& header, const CmmMap& map) {
+  if (header.proven_order) {
+    return device_failure(fmt::format("its registers come in another order; set {} in the device file",
+                                      order_settings(map, *header.proven_order)));
+  }
   if (header.version != map.expected_version) {
     return device_failure(
         fmt::format("it has register map version {}, not {}; give a device file that describes its map", header.version,
                     map.expected_version));
   }
   if (header.test_constant_provided && !near(header.test_constant, map.expected_test_constant)) {
-    if (near(header.test_constant_swapped, map.expected_test_constant)) {
-      return device_failure(
-          fmt::format("its registers come in the other word order; set word_order = \"{}\" in the device file",
-                      word_order_name(other(map.word_order))));
-    }
-    return device_failure(
-        fmt::format("its test constant reads {}, not {}; correct word_order or test_constant in the device file",
-                    header.test_constant, map.expected_test_constant));
+    return device_failure(fmt::format(
+        "its test constant reads {}, not {}; correct word_order, byte_order or test_constant in the device file",
+        header.test_constant, map.expected_test_constant));
   }
   if (header.record_size != map.record_size) {
     return device_failure(fmt::format("its records have {} registers, not {}; correct record_size in the device file",

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "drivers/modbus/modbus_settings.hpp"
@@ -17,7 +18,8 @@ struct CmmHeader {
   std::uint32_t run_id = 0;       ///< 0 where the device has none
   bool test_constant_provided = false;
   double test_constant = 0;
-  double test_constant_swapped = 0;  ///< as the other word order would have it
+  std::optional<RegisterOrder> proven_order;  ///< another one than that of the map, which gives the constant expected
+  bool status_unknown = false;                ///< the map gives no meaning to the status, which is a number
 
   /// True where both describe the same ring of the same run.
   [[nodiscard]] bool same_identity(const CmmHeader& other) const {

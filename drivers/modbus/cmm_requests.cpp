@@ -18,7 +18,7 @@ ModbusRequest write_request(const CmmMap& map, const NumberField& field, std::ui
   request.count = register_count(field.type);
   request.function = request.count == 1 ? MODBUS_FC_WRITE_SINGLE_REGISTER : MODBUS_FC_WRITE_MULTIPLE_REGISTERS;
   request.address = field.address;
-  encode_whole(value, field.type, map.word_order, request.values);
+  encode_whole(value, field.type, map.order(), request.values);
   return request;
 }
 

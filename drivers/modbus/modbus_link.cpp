@@ -1,5 +1,7 @@
 #include "drivers/modbus/modbus_link.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 
@@ -31,6 +33,13 @@ std::size_t ModbusLink::receive_frame(std::span<std::uint8_t, MODBUS_MAX_ADU_LEN
     event = broken(fault_);
   }
   return 0;
+}
+
+LinkEvent ModbusLink::timed_out(int unit, std::chrono::milliseconds timeout) {
+  fault_ = other_unit_ ? fmt::format("unit {0} answers in place of unit {1}; set unit = {0} in the device file",
+                                     *other_unit_, unit)
+                       : fmt::format("no reply from unit {} within {} ms", unit, timeout.count());
+  return LinkEvent::timeout;
 }
 
 LinkEvent ModbusLink::broken(std::string fault) {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -18,6 +19,7 @@ enum class LinkEvent : std::uint8_t {
   timeout,  ///< the deadline of the transaction has passed; the link stays open
   damaged,  ///< a reply that cannot be used; the link stays open
   refused,  ///< the device answered with an exception
+  unknown,  ///< the device answered that it does not know the function
   busy,     ///< the device answered that it is busy
   broken,   ///< the link is closed
 };
@@ -52,6 +54,9 @@ class ModbusLink {
   /// Before this moment nothing may be sent.
   [[nodiscard]] Clock::time_point ready_at() const { return ready_at_; }
 
+  /// Another unit that answered the last request without a reply, in place of the one asked.
+  [[nodiscard]] std::optional<int> other_unit() const { return other_unit_; }
+
   /// The newest fault, with the fix.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
@@ -66,11 +71,15 @@ class ModbusLink {
   /// Lets libmodbus receive one frame until deadline_. Returns its size, or the event in `event`.
   [[nodiscard]] std::size_t receive_frame(std::span<std::uint8_t, MODBUS_MAX_ADU_LENGTH> frame, LinkEvent& event);
 
+  /// The deadline of the transaction has passed.
+  LinkEvent timed_out(int unit, std::chrono::milliseconds timeout);
+
   /// Closes the link because of a fault.
   LinkEvent broken(std::string fault);
 
   std::unique_ptr<modbus_t, ContextDeleter> context_;
   ModbusRequest request_;
+  std::optional<int> other_unit_;
   Clock::time_point deadline_{};
   Clock::time_point ready_at_{};
   std::string fault_;

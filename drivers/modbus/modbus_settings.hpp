@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "drivers/modbus/cmm_map_v1.hpp"
 #include "drivers/serial/line_settings.hpp"
@@ -18,12 +19,31 @@ struct TcpSettings {
 
 enum class NumberType : std::uint8_t { uint16, int16, uint32, int32, float32, float64 };
 
-/// Which register of a number of several registers comes first. Within a register the high byte is always first.
+/// Which register of a number of several registers comes first.
 enum class WordOrder : std::uint8_t { high_first, low_first };
 
 /// The word orders as a device file and messages call them.
 inline constexpr std::array<std::pair<std::string_view, WordOrder>, 2> kWordOrders = {
     {{"high_first", WordOrder::high_first}, {"low_first", WordOrder::low_first}}};
+
+/// Which byte of a register comes first: Modbus has the high one first. Some devices swap them in every register,
+/// others only in numbers of several registers.
+enum class ByteOrder : std::uint8_t { high_first, low_first, low_first_in_long };
+
+/// The byte orders as a device file and messages call them.
+inline constexpr std::array<std::pair<std::string_view, ByteOrder>, 3> kByteOrders = {
+    {{"high_first", ByteOrder::high_first},
+     {"low_first", ByteOrder::low_first},
+     {"low_first_in_long", ByteOrder::low_first_in_long}}};
+
+/// How a number lies in its registers.
+struct RegisterOrder {
+  constexpr RegisterOrder(WordOrder word_order, ByteOrder byte_order = ByteOrder::high_first)
+      : words(word_order), bytes(byte_order) {}
+
+  WordOrder words;
+  ByteOrder bytes;
+};
 
 enum class RegisterTable : std::uint8_t { input, holding };
 
@@ -39,6 +59,7 @@ struct NumberField {
 /// micrometres as int32 has the scale 0.001, one that speaks inches 25.4.
 struct CmmMap {
   WordOrder word_order = WordOrder::high_first;
+  ByteOrder byte_order = ByteOrder::high_first;
   RegisterTable table = RegisterTable::input;  ///< of the header and of the records
 
   NumberField version{true, cmm_map_v1::kVersionRegister, NumberType::uint16, 1};
@@ -48,6 +69,9 @@ struct CmmMap {
   std::uint16_t fault_mask = cmm_map_v1::kStatusFault;
   std::uint16_t overflow_mask = cmm_map_v1::kStatusOverflow;  ///< points were lost in the device
   std::uint16_t finished_mask = cmm_map_v1::kStatusFinished;  ///< the program is finished
+  /// Where the status is a number: which of the bits above (0 = none of them) each of its values stands for. Empty:
+  /// bits.
+  std::vector<std::pair<std::uint16_t, std::uint16_t>> status_values;
   NumberField newest{true, cmm_map_v1::kNewestRegister, NumberType::uint32, 1};
   NumberField capacity{true, cmm_map_v1::kCapacityRegister, NumberType::uint16, 1};
   std::uint32_t ring_capacity = 0;  ///< [records]; 0 = the device says it in `capacity`
@@ -77,6 +101,8 @@ struct CmmMap {
   std::uint16_t command_start = cmm_map_v1::kCommandStart;
   std::uint16_t command_stop = cmm_map_v1::kCommandStop;
   std::uint16_t command_restart = cmm_map_v1::kCommandRestart;
+
+  [[nodiscard]] RegisterOrder order() const { return {word_order, byte_order}; }
 };
 
 enum class ModbusTransport : std::uint8_t { tcp, rtu };

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "drivers/modbus/cmm_requests.hpp"
+#include "drivers/modbus/device_habits.hpp"
 #include "drivers/source/host_clock.hpp"
 #include "drivers/source/source_fault.hpp"
 
@@ -26,8 +27,6 @@ ModbusSource::ModbusSource(const ModbusSettings& settings, std::string name)
       schedule_(settings.poll_period),
       registers_(MODBUS_MAX_READ_REGISTERS) {}
 
-ModbusSource::~ModbusSource() = default;
-
 /// A setting that does not fit counts as a fault of the device, too: one of the two is to be changed, and only who
 /// stands beside the machine knows which.
 Failure ModbusSource::open_error(const std::string& what) {
@@ -46,6 +45,7 @@ Failure ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
   refusal_.clear();
   if (const Failure failure = check_map(settings_.map)) return open_error(failure.message);
   if (const Failure failure = link_->prepare()) return open_error(failure.message);
+  for (const std::string& remark : give_up_unsafe_writes(settings_.map)) note_remark(status_, remark);
   opening_ = true;
   transaction_ = {};
   stage_ = Stage::connecting;
@@ -58,10 +58,7 @@ Failure ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
     const bool never_connected = stage_ == Stage::down && !health_.ever_made();
     if (never_connected || Clock::now() > deadline) return open_error(status_.last_fault);
     if (!refusal_.empty()) return open_error(refusal_);
-    if (health_.seems_lost()) {
-      return open_error(fmt::format(
-          "unit {} does not answer; switch it on, or correct unit and the settings of the line", settings_.unit));
-    }
+    if (health_.seems_lost()) return open_error(silence_text(settings_.unit, link_->other_unit()));
   }
   opening_ = false;
   return {};
@@ -70,8 +67,6 @@ Failure ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
 std::size_t ModbusSource::poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) {
   return ring_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
 }
-
-void ModbusSource::acknowledge(std::uint32_t sequence) { acknowledgement_.store(sequence); }
 
 /// Goes on with whatever is under way. Returns as soon as something has changed, at `until` at the latest.
 void ModbusSource::step(Clock::time_point until) {
@@ -202,8 +197,10 @@ void ModbusSource::header_read() {
 
 void ModbusSource::header_accepted(const CmmHeader& header) {
   note_good(status_);
+  if (header.status_unknown)
+    note_remark(status_, "the device file gives no meaning to the status of the device; add it to status_values");
   const bool records_taken = ring_.next() > 1;
-  // Those read while the device refuses the start cannot show the run that it begins.
+  // Those read while the device refuses the start cannot show its run.
   headers_.accept(header.run_id, records_taken, stage_ == Stage::identify || stage_ == Stage::running);
   if (stage_ != Stage::running && !headers_.foreign()) identify(header);
   ring_.observe(header);
@@ -228,6 +225,10 @@ void ModbusSource::records_read() {
 void ModbusSource::transaction_failed(LinkEvent event) {
   if (event == LinkEvent::broken) return link_lost(link_->fault());
   const Purpose purpose = std::exchange(transaction_.purpose, Purpose::none);
+  if (event == LinkEvent::unknown) {
+    if (adapt(purpose)) return;
+    event = LinkEvent::refused;
+  }
   note_fault(status_, link_->fault());
   if (event == LinkEvent::damaged) ++status_.damaged;
   if (event == LinkEvent::refused || event == LinkEvent::busy) return request_refused(purpose, event);
@@ -242,13 +243,21 @@ void ModbusSource::transaction_failed(LinkEvent event) {
   }
 }
 
+/// The device does not know the function of a request. False where there is no other way to what it was for.
+bool ModbusSource::adapt(Purpose purpose) {
+  CmmMap& map = settings_.map;
+  const bool writes = purpose == Purpose::acknowledge || purpose == Purpose::command;
+  NumberField& written = purpose == Purpose::command ? map.command : map.acknowledge;
+  const std::vector<std::string> remarks = writes ? give_up_writing(written) : read_holding_instead(map);
+  if (!map.command.present) next_command_ = 0;
+  for (const std::string& remark : remarks) note_remark(status_, remark);
+  return !remarks.empty();
+}
+
 /// What was refused is asked again, a poll period later.
 void ModbusSource::request_refused(Purpose purpose, LinkEvent event) {
-  if (purpose == Purpose::acknowledge || purpose == Purpose::command) {
-    schedule_.write_refused(Clock::now());
-  } else {
-    schedule_.read_refused(Clock::now());
-  }
+  const bool writes = purpose == Purpose::acknowledge || purpose == Purpose::command;
+  writes ? schedule_.write_refused(Clock::now()) : schedule_.read_refused(Clock::now());
   if (opening_ && event == LinkEvent::refused) {
     refusal_ = link_->fault() + "; correct the addresses, or lower batch, in the device file";
   }

@@ -19,12 +19,11 @@ namespace bladefit {
 class ModbusSource final : public ProbeSource {
  public:
   ModbusSource(const ModbusSettings& settings, std::string name);
-  ~ModbusSource() override;
 
   /// Takes at most about the connect timeout and ten reply timeouts. A link that breaks meanwhile is made again.
   [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t run_id) override;
   [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
-  void acknowledge(std::uint32_t sequence) override;
+  void acknowledge(std::uint32_t sequence) override { acknowledgement_.store(sequence); }
   void close() override;
   [[nodiscard]] const SourceStatus& status() const override { return status_; }
 
@@ -51,6 +50,7 @@ class ModbusSource final : public ProbeSource {
   void records_read();
   void transaction_failed(LinkEvent event);
   void request_refused(Purpose purpose, LinkEvent event);
+  [[nodiscard]] bool adapt(Purpose purpose);
   void link_lost(const std::string& fault);
   [[nodiscard]] Failure open_error(const std::string& what);
   [[nodiscard]] bool write_now(const NumberField& field, std::uint32_t value, Clock::time_point until);
@@ -61,7 +61,7 @@ class ModbusSource final : public ProbeSource {
     RecordBatch batch;  ///< of purpose records
   };
 
-  const ModbusSettings settings_;
+  ModbusSettings settings_;  ///< its map changes where the device turns out not to know a function
   const std::string name_;
   SourceStatus status_;
   RingReader ring_;

@@ -7,17 +7,24 @@
 namespace bladefit {
 namespace {
 
+bool swaps_bytes(ByteOrder order, std::uint16_t count) {
+  return order == ByteOrder::low_first || (order == ByteOrder::low_first_in_long && count > 1);
+}
+
 /// The registers as one unsigned number, the most significant register first in memory of the device or last.
-std::uint64_t joined(std::span<const std::uint16_t> words, std::uint16_t count, WordOrder order) {
+std::uint64_t joined(std::span<const std::uint16_t> words, std::uint16_t count, RegisterOrder order) {
   std::uint64_t bits = 0;
   for (std::uint16_t index = 0; index < count; ++index) {
-    const std::uint16_t place = order == WordOrder::high_first ? index : static_cast<std::uint16_t>(count - 1 - index);
-    bits = (bits << 16U) | words[place];
+    const std::uint16_t place =
+        order.words == WordOrder::high_first ? index : static_cast<std::uint16_t>(count - 1 - index);
+    bits = (bits << 16U) | (swaps_bytes(order.bytes, count) ? swapped_bytes(words[place]) : words[place]);
   }
   return bits;
 }
 
 }  // namespace
+
+std::uint16_t swapped_bytes(std::uint16_t word) { return static_cast<std::uint16_t>((word << 8U) | (word >> 8U)); }
 
 std::uint16_t register_count(NumberType type) {
   switch (type) {
@@ -34,7 +41,7 @@ std::uint16_t register_count(NumberType type) {
   return 4;
 }
 
-double decode_number(std::span<const std::uint16_t> words, NumberType type, WordOrder order) {
+double decode_number(std::span<const std::uint16_t> words, NumberType type, RegisterOrder order) {
   const std::uint64_t bits = joined(words, register_count(type), order);
   switch (type) {
     case NumberType::uint16:
@@ -53,25 +60,27 @@ double decode_number(std::span<const std::uint16_t> words, NumberType type, Word
 }
 
 double decode_field(std::span<const std::uint16_t> block, std::uint16_t first, const NumberField& field,
-                    WordOrder order) {
+                    RegisterOrder order) {
   return field.scale * decode_number(block.subspan(static_cast<std::size_t>(field.address - first)), field.type, order);
 }
 
 std::uint32_t decode_whole(std::span<const std::uint16_t> block, std::uint16_t first, const NumberField& field,
-                           WordOrder order) {
+                           RegisterOrder order) {
   const double value = decode_field(block, first, field, order);
   const bool fits = value >= 0 && value <= std::numeric_limits<std::uint32_t>::max();
   return fits ? static_cast<std::uint32_t>(value) : 0;
 }
 
-void encode_whole(std::uint32_t value, NumberType type, WordOrder order, std::span<std::uint16_t> words) {
+void encode_whole(std::uint32_t value, NumberType type, RegisterOrder order, std::span<std::uint16_t> words) {
   const std::uint16_t count = register_count(type);
   std::uint64_t bits = value;
   if (type == NumberType::float32) bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
   if (type == NumberType::float64) bits = std::bit_cast<std::uint64_t>(static_cast<double>(value));
   for (std::uint16_t index = 0; index < count; ++index) {
-    const std::uint16_t place = order == WordOrder::high_first ? static_cast<std::uint16_t>(count - 1 - index) : index;
-    words[place] = static_cast<std::uint16_t>(bits & 0xFFFFU);
+    const std::uint16_t place =
+        order.words == WordOrder::high_first ? static_cast<std::uint16_t>(count - 1 - index) : index;
+    const auto word = static_cast<std::uint16_t>(bits & 0xFFFFU);
+    words[place] = swaps_bytes(order.bytes, count) ? swapped_bytes(word) : word;
     bits >>= 16U;
   }
 }

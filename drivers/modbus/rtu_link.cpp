@@ -101,6 +101,7 @@ LinkEvent RtuLink::drain() {
 
 LinkEvent RtuLink::send(const ModbusRequest& request) {
   request_ = request;
+  other_unit_.reset();
   if (const LinkEvent event = drain(); event != LinkEvent::done) return event;
   const ModbusPdu pdu = encode_request(request);
   sent_[0] = static_cast<std::uint8_t>(settings_.unit);
@@ -145,10 +146,7 @@ LinkEvent RtuLink::receive(std::span<std::uint16_t> registers, Clock::time_point
     const Readiness readiness = wait_ready(modbus_get_socket(context_.get()), false, std::min(until, deadline_));
     if (readiness == Readiness::hang_up) return broken("the port has hung up; check the cable");
     if (readiness == Readiness::timeout && Clock::now() < deadline_) return LinkEvent::pending;
-    if (readiness == Readiness::timeout) {
-      fault_ = fmt::format("no reply from unit {} within {} ms", settings_.unit, settings_.reply_timeout.count());
-      return quiet_after(LinkEvent::timeout);
-    }
+    if (readiness == Readiness::timeout) return quiet_after(timed_out(settings_.unit, settings_.reply_timeout));
     if (echo_size_ > 0) {
       if (const LinkEvent event = read_echo(); event != LinkEvent::pending) return event;
       continue;
@@ -159,6 +157,7 @@ LinkEvent RtuLink::receive(std::span<std::uint16_t> registers, Clock::time_point
     if (event == LinkEvent::broken) return event;
     if (event != LinkEvent::done) return quiet_after(event);
     // libmodbus returns 0 for a frame of another unit: it is skipped and waiting goes on.
+    if (frame[0] != settings_.unit) other_unit_ = frame[0];
     if (size <= kEnvelopeSize || frame[0] != settings_.unit) continue;
     const std::span<const std::uint8_t> pdu(frame.data() + 1, size - kEnvelopeSize);
     switch (match_reply(pdu, request_, registers, fault_)) {
@@ -167,6 +166,9 @@ LinkEvent RtuLink::receive(std::span<std::uint16_t> registers, Clock::time_point
       case ReplyKind::refused:
         static_cast<void>(quiet_after(LinkEvent::done));
         return LinkEvent::refused;
+      case ReplyKind::unknown:
+        static_cast<void>(quiet_after(LinkEvent::done));
+        return LinkEvent::unknown;
       case ReplyKind::busy:
         static_cast<void>(quiet_after(LinkEvent::done));
         return LinkEvent::busy;

@@ -34,6 +34,7 @@ LinkEvent TcpLink::connect(Clock::time_point until) {
 
 LinkEvent TcpLink::send(const ModbusRequest& request) {
   request_ = request;
+  other_unit_.reset();
   ++transaction_;
   const ModbusPdu pdu = encode_request(request);
   const auto header = tcp_header(transaction_, static_cast<std::uint8_t>(settings_.unit), pdu.size);
@@ -52,10 +53,7 @@ LinkEvent TcpLink::receive(std::span<std::uint16_t> registers, Clock::time_point
     const Readiness readiness = wait_ready(modbus_get_socket(context_.get()), false, std::min(until, deadline_));
     if (readiness == Readiness::hang_up) return broken("the device has closed the connection");
     if (readiness == Readiness::timeout && Clock::now() < deadline_) return LinkEvent::pending;
-    if (readiness == Readiness::timeout) {
-      fault_ = fmt::format("no reply within {} ms", settings_.reply_timeout.count());
-      return LinkEvent::timeout;
-    }
+    if (readiness == Readiness::timeout) return timed_out(settings_.unit, settings_.reply_timeout);
     std::array<std::uint8_t, MODBUS_MAX_ADU_LENGTH> frame{};
     LinkEvent event = LinkEvent::done;
     const std::size_t size = receive_frame(frame, event);
@@ -66,6 +64,7 @@ LinkEvent TcpLink::receive(std::span<std::uint16_t> registers, Clock::time_point
     if (size <= kTcpHeaderSize || given != size || frame[2] != 0 || frame[3] != 0)
       return broken("a reply of a wrong length");
     const auto transaction = static_cast<std::uint16_t>((frame[0] << 8U) | frame[1]);
+    if (transaction == transaction_ && frame[6] != settings_.unit) other_unit_ = frame[6];
     if (transaction != transaction_ || frame[6] != settings_.unit) continue;
     const std::span<const std::uint8_t> pdu(frame.data() + kTcpHeaderSize, size - kTcpHeaderSize);
     switch (match_reply(pdu, request_, registers, fault_)) {
@@ -73,6 +72,8 @@ LinkEvent TcpLink::receive(std::span<std::uint16_t> registers, Clock::time_point
         return LinkEvent::done;
       case ReplyKind::refused:
         return LinkEvent::refused;
+      case ReplyKind::unknown:
+        return LinkEvent::unknown;
       case ReplyKind::busy:
         return LinkEvent::busy;
       case ReplyKind::foreign:

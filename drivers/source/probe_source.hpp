@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/probe_point.hpp"
 #include "drivers/source/failure.hpp"
@@ -29,6 +30,7 @@ struct SourceStatus {
   std::uint64_t losses = 0;              ///< how often records were lost in the device, not to be had again
   std::uint64_t unnumbered_losses = 0;   ///< how many of these have left no jump in the sequence
   std::string last_loss;                 ///< the newest in words: which records, why, and the fix
+  std::vector<std::string> remarks;      ///< what the user should know though no record is lost; each is told once
 };
 
 /// Where probe points come from: a machine or a recording. One thread owns it.

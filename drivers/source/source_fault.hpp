@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -23,6 +24,12 @@ inline void note_loss(SourceStatus& status, const std::string& text) {
 inline void note_unnumbered_loss(SourceStatus& status, const std::string& text) {
   ++status.unnumbered_losses;
   note_loss(status, text);
+}
+
+/// Publishes what the user should know, as a fault and by itself, the latter once; no record is lost by it.
+inline void note_remark(SourceStatus& status, const std::string& text) {
+  if (std::ranges::find(status.remarks, text) == status.remarks.end()) status.remarks.push_back(text);
+  note_fault(status, text);
 }
 
 /// Which records are lost, in the operator's words.

@@ -136,6 +136,8 @@ void Acquisition::announce_changes(const SourceStatus& status) {
   }
   if (status.link != announced_.link && status.link == LinkState::up) shared_.notices.write("link is up again");
   if (status.losses != announced_.losses) shared_.notices.write(status.last_loss);
+  for (; announced_.remarks < status.remarks.size(); ++announced_.remarks)
+    shared_.notices.write(status.remarks[announced_.remarks]);
   if (status.device_fault != announced_.fault) {
     shared_.notices.write(status.device_fault ? "the device reports a fault; see its own screen"
                                               : "the device's fault is over");

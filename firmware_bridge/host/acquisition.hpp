@@ -62,6 +62,7 @@ class Acquisition {
     LinkState link = LinkState::up;
     bool fault = false;
     std::uint64_t losses = 0;
+    std::size_t remarks = 0;
   } announced_;
   std::uint64_t unnumbered_losses_ = 0;  ///< that are in the stream
   Clock::time_point last_point_ = Clock::now();

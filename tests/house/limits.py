@@ -46,6 +46,8 @@ OTHER_VOCABULARIES = (
     # What the operator reads on the screen is written for people: "FAULT", "needs more points", "elsewhere".
     ("*", "tools/screen/words.cpp"),
     ("*", "tools/panel/panel_words.cpp"),
+    # The unit marks that read-outs print behind a number.
+    ("DesignUnit", "drivers/dro/dro_line.cpp"),
     # The simulator shares nothing with the drivers that it tests, so that both cannot be wrong in the same way.
     ("SourceKind", "tools/*simulate*"),
     ("SimulatorTransport", "drivers/*"),

@@ -26,7 +26,7 @@ TEST(Crc16, TakesTheHighByteOfARegisterFirst) {
 
 struct Number {
   NumberType type;
-  WordOrder order;
+  RegisterOrder order;
   Words words;
   double value;
 };
@@ -48,10 +48,16 @@ INSTANTIATE_TEST_SUITE_P(
                     Number{NumberType::float32, WordOrder::high_first, {0x4048, 0xF5C3}, 3.140000104904175},
                     Number{NumberType::float32, WordOrder::low_first, {0xF5C3, 0x4048}, 3.140000104904175},
                     Number{NumberType::float64, WordOrder::high_first, {0x40C8, 0x1CD6, 0xC8B4, 0x3958}, 12345.678},
-                    Number{NumberType::float64, WordOrder::low_first, {0x3958, 0xC8B4, 0x1CD6, 0x40C8}, 12345.678}));
+                    Number{NumberType::float64, WordOrder::low_first, {0x3958, 0xC8B4, 0x1CD6, 0x40C8}, 12345.678},
+                    Number{NumberType::uint16, {WordOrder::high_first, ByteOrder::low_first}, {0x0102}, 0x0201},
+                    Number{NumberType::uint16, {WordOrder::high_first, ByteOrder::low_first_in_long}, {0x0102}, 0x0102},
+                    Number{
+                        NumberType::uint32, {WordOrder::low_first, ByteOrder::low_first_in_long}, {2, 1}, 0x01000200}));
 
 TEST(NumberCodecRoundTrip, EncodesWholeNumbersInEveryType) {
-  for (const WordOrder order : {WordOrder::high_first, WordOrder::low_first}) {
+  for (const RegisterOrder order : {RegisterOrder(WordOrder::high_first), RegisterOrder(WordOrder::low_first),
+                                    RegisterOrder(WordOrder::low_first, ByteOrder::low_first),
+                                    RegisterOrder(WordOrder::high_first, ByteOrder::low_first_in_long)}) {
     for (const NumberType type : {NumberType::uint16, NumberType::int16, NumberType::uint32, NumberType::int32,
                                   NumberType::float32, NumberType::float64}) {
       std::array<std::uint16_t, 4> words{};
@@ -245,6 +251,7 @@ TEST(ModbusFrame, MatchesRepliesWithTheirRequest) {
   EXPECT_EQ(match({0x84, 2}, read), ReplyKind::refused);
   EXPECT_NE(fault.find("Illegal data address"), std::string::npos) << fault;
   EXPECT_EQ(match({0x84, 4}, read), ReplyKind::refused);
+  EXPECT_EQ(match({0x84, 1}, read), ReplyKind::unknown);
   EXPECT_EQ(match({0x84, 5}, read), ReplyKind::busy);
   EXPECT_EQ(match({0x84, 6}, read), ReplyKind::busy);
   EXPECT_EQ(match({16, 0, 0, 0, 2}, {16, 0, 2, {1, 2}}), ReplyKind::good);

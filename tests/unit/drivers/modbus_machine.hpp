@@ -1,6 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -69,6 +70,27 @@ class Registers {
     first_refused_ = first;
   }
 
+  /// Answers a function with the exception that it does not know it, from now on.
+  void forget_function(std::uint8_t function) {
+    const std::lock_guard lock(mutex_);
+    unknown_.push_back(function);
+  }
+
+  /// Bytes of every register come swapped, or only those of numbers of several registers.
+  void swap_bytes(bool everywhere) {
+    const std::lock_guard lock(mutex_);
+    const auto swap = [](std::uint16_t& word) { word = static_cast<std::uint16_t>((word << 8U) | (word >> 8U)); };
+    for (std::size_t address = 0; address < inputs_.size(); ++address) {
+      const std::size_t place = address < 100 ? address : 100 + (address - 100) % 20;
+      const bool in_long = place == 2 || place == 3 || (place > 5 && place < 12) || (place >= 100 && place < 114);
+      if (everywhere || in_long) swap(inputs_[address]);
+    }
+    if (everywhere) return;
+    for (std::size_t record = 100; record < inputs_.size(); record += 20) {
+      inputs_[record + 19] = crc16(std::span<const std::uint16_t>(inputs_).subspan(record, 19));
+    }
+  }
+
   [[nodiscard]] int refusals() {
     const std::lock_guard lock(mutex_);
     return refusals_;
@@ -82,10 +104,12 @@ class Registers {
       ++refusals_;
       return {static_cast<std::uint8_t>(pdu[0] | 0x80U), exception_};
     }
+    if (std::find(unknown_.begin(), unknown_.end(), pdu[0]) != unknown_.end())
+      return {static_cast<std::uint8_t>(pdu[0] | 0x80U), 1};
     const std::uint16_t count = word_at(pdu, 3);
-    if (pdu[0] == 4) {
-      if (address + count > inputs_.size()) return {0x84, 2};
-      Bytes reply = {4, static_cast<std::uint8_t>(2 * count)};
+    if (pdu[0] == 3 || pdu[0] == 4) {
+      if (address + count > inputs_.size()) return {static_cast<std::uint8_t>(pdu[0] | 0x80U), 2};
+      Bytes reply = {pdu[0], static_cast<std::uint8_t>(2 * count)};
       for (std::size_t index = 0; index < count; ++index) {
         reply.push_back(static_cast<std::uint8_t>(inputs_[address + index] >> 8U));
         reply.push_back(static_cast<std::uint8_t>(inputs_[address + index] & 0xFFU));
@@ -102,6 +126,7 @@ class Registers {
   std::mutex mutex_;
   std::array<std::uint16_t, 100 + kCapacity * 20> inputs_{};
   std::array<std::uint16_t, 8> holdings_{};
+  Bytes unknown_;
   std::uint8_t refused_function_ = 0, exception_ = 0;
   std::uint16_t first_refused_ = 0;
   int refusals_left_ = 0, refusals_ = 0;

@@ -47,6 +47,8 @@ class TcpMachine {
   std::uint16_t port = 0;
   std::atomic<Mischief> mischief = Mischief::none;  ///< with the next reply only
   std::atomic<bool> dumb = false;                   ///< no reply at all
+  std::atomic<int> only_unit = -1;                  ///< answers no other unit identifier; -1 = answers every one
+  std::atomic<int> reply_unit = -1;                 ///< stands in every reply; -1 = that of the request
 
  private:
   static bool readable(int descriptor) {
@@ -69,9 +71,11 @@ class TcpMachine {
     const ssize_t size = ::recv(client, frame.data(), frame.size(), 0);
     if (size < 12) return false;
     frame.resize(static_cast<std::size_t>(size));
+    if (only_unit >= 0 && frame[6] != only_unit) return true;
     const Bytes pdu = registers.answer({frame.begin() + 7, frame.end()});
     Bytes reply(frame.begin(), frame.begin() + 7);
     reply[5] = static_cast<std::uint8_t>(pdu.size() + 1);
+    if (reply_unit >= 0) reply[6] = static_cast<std::uint8_t>(reply_unit.load());
     reply.insert(reply.end(), pdu.begin(), pdu.end());
     if (dumb) return true;
     switch (mischief.exchange(Mischief::none)) {

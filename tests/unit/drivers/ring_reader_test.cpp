@@ -18,7 +18,7 @@ struct Bench {
   explicit Bench(std::uint32_t after = 0) { ring.restart(after); }
 
   void show(std::uint32_t newest, std::uint16_t bits = 2, std::uint32_t run = 1, std::uint32_t capacity = 8) {
-    ring.observe({1, bits, newest, capacity, 20, run, false, 0, 0});
+    ring.observe({1, bits, newest, capacity, 20, run, false, 0, {}, false});
   }
 
   /// Reads the next batch; the record `bad` of it has a wrong check sum.

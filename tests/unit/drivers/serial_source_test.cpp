@@ -180,18 +180,23 @@ TEST(SerialSourceErrors, NameTheDeviceAndTheFix) {
   EXPECT_NE(opened(settings).find("the port is busy: another program uses it"), std::string::npos);
 }
 
-TEST(DroSource, NumbersItsPoints) {
-  Cable cable;
+DroSettings dro_settings(const Cable& cable) {
   DroSettings settings;
   settings.line.device = cable.device;
   settings.reconnect_first = milliseconds(10);
-  const auto source = make_source(settings);
+  return settings;
+}
+
+TEST(DroSource, NumbersItsPoints) {
+  Cable cable;
+  const auto source = make_source(dro_settings(cable));
   ASSERT_EQ(source->open(5, 0).message, "");
-  cable.write("0.5 Z 1\r\nX 1 Y 2 Z 3\r\n# note\r\nX 1 Y 2 Z 4\n\r");
+  cable.write("0.5 Z 1.0\r\nX 1.0 Y 2.0 Z 3.0\r\n# note\r\nX 1.0 Y 2.0 Z 4.0\n\r");
   EXPECT_EQ(collect(*source, 2), (Sequences{6, 7}));
   EXPECT_EQ(source->status().damaged, 1U);
   EXPECT_EQ(source->status().losses, 0U) << "the first line may have been cut when the port was opened";
-  cable.write("X 1 Y ? Z 4\nX 1 Y 2 Z 5\n" + std::string(400, 'X') + "\n");
+  EXPECT_EQ(source->status().remarks.size(), 1U) << "but it is told of";
+  cable.write("X 1.0 Y ? Z 4.0\nX 1.0 Y 2.0 Z 5.0\n" + std::string(400, 'X') + "\n");
   EXPECT_EQ(collect(*source, 1), (Sequences{8}));
   const std::uint64_t losses = source->status().losses;
   EXPECT_GT(losses, 0U);
@@ -204,8 +209,56 @@ TEST(DroSource, NumbersItsPoints) {
   cable.plug_in();
   static_cast<void>(collect(*source, 1, milliseconds(200)));
   EXPECT_EQ(source->status().link, LinkState::up);
-  cable.write("X 1 Y 2 Z 6\n");
+  cable.write("X 1.0 Y 2.0 Z 6.0\n");
   EXPECT_EQ(collect(*source, 1), (Sequences{9}));
+}
+
+TEST(DroSource, GathersLinesOfOneAxisThatEndWithCarriageReturnAlone) {
+  const Cable cable;
+  const auto source = make_source(dro_settings(cable));
+  ASSERT_EQ(source->open(0, 0).message, "");
+  cable.write(
+      "4.5149 R\rX=+   7.8702 R\rY=-   3.9861 R\rZ=+  17.5149 R\rX=+   8.8702 R\rY=-   4.9861 R\rZ=+   8.5149 R\r");
+  const std::vector<ProbePoint> points = collect_points(*source, 2);
+  ASSERT_EQ(points.size(), 2U) << source->status().last_fault;
+  EXPECT_EQ(points[0].position, (std::array<double, 3>{7.8702, -3.9861, 17.5149}));
+  EXPECT_EQ(points[1].position, (std::array<double, 3>{8.8702, -4.9861, 8.5149}));
+  EXPECT_EQ(source->status().losses, 0U);
+}
+
+TEST(DroSource, AFirstLineWithoutItsBeginningIsALoss) {
+  const Cable cable;
+  DroSettings settings = dro_settings(cable);
+  settings.labels = false;
+  const auto source = make_source(settings);
+  ASSERT_EQ(source->open(0, 0).message, "");
+  cable.write("7.8702 3.9861 7.5149\n34.9271 3.9698 4.7101\n");
+  EXPECT_EQ(collect_points(*source, 1).at(0).position[0], 34.9271);
+  EXPECT_EQ(source->status().losses, 1U);
+  EXPECT_NE(source->status().last_loss.find("the beginning may be missing"), std::string::npos);
+}
+
+TEST(DroSource, AFirstLineThatCameOutOfSilenceIsWhole) {
+  const Cable cable;
+  DroSettings settings = dro_settings(cable);
+  settings.labels = false;
+  const auto source = make_source(settings);
+  ASSERT_EQ(source->open(0, 0).message, "");
+  static_cast<void>(collect(*source, 1, milliseconds(150)));
+  cable.write("7.8702 3.9861 7.5149\n");
+  EXPECT_EQ(collect_points(*source, 1).size(), 1U) << source->status().last_fault;
+}
+
+TEST(DroSource, ALineWithoutAnEndIsALoss) {
+  const Cable cable;
+  const auto source = make_source(dro_settings(cable));
+  ASSERT_EQ(source->open(0, 0).message, "");
+  cable.write("X 1.0 Y 2.0 Z 3.0\nX 1.0 Y 2.0 Z 4.0");
+  EXPECT_EQ(collect(*source, 2, milliseconds(2500)), (Sequences{1}));
+  EXPECT_EQ(source->status().losses, 1U);
+  EXPECT_NE(source->status().last_loss.find("no end of the line came"), std::string::npos);
+  cable.write("\nX 1.0 Y 2.0 Z 5.0\n");
+  EXPECT_EQ(collect(*source, 1), (Sequences{2}));
 }
 
 TEST(ReplaySource, DeliversTheFileAndFinishes) {
