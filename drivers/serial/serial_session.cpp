@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "drivers/serial/protocol_v1.hpp"
@@ -35,7 +36,22 @@ void SerialSession::link_made(Clock::time_point now) {
   start(now);
 }
 
+bool SerialSession::numbers_are_used_up() const { return records_.next() > std::numeric_limits<std::uint32_t>::max(); }
+
+/// The numbering has restarted, or must.
+void SerialSession::stop(const std::string& why) {
+  stage_ = Stage::stopped;
+  records_.forget_end();
+  note_fault(status_, why);
+}
+
 void SerialSession::start(Clock::time_point now) {
+  if (acknowledgement_.stored() == std::numeric_limits<std::uint32_t>::max()) {
+    status_.stopped =
+        "the session holds record 4294967295, and there is no number beyond that; start a session in "
+        "another folder for further records";
+    return stop(status_.stopped);
+  }
   stage_ = Stage::starting;
   started_at_ = now;
   ++starts_;
@@ -61,13 +77,10 @@ void SerialSession::received(const SerialMessage& message, Clock::time_point now
 void SerialSession::run_named(std::uint32_t run_id, Clock::time_point now) {
   status_.run_id = run_id;
   if (records_.next() > 1 && run_id != run_id_) {
-    stage_ = Stage::stopped;
-    records_.forget_end();
-    note_fault(status_,
-               fmt::format("the device has begun another run ({} instead of {}) and numbers its records from 1 "
-                           "again; end this session and start a new one",
-                           run_id, run_id_));
-    return;
+    return stop(
+        fmt::format("the device has begun another run ({} instead of {}) and numbers its records from 1 again; end "
+                    "this session and start a new one",
+                    run_id, run_id_));
   }
   run_id_ = run_id;
   status_.link = LinkState::up;
@@ -104,7 +117,8 @@ void SerialSession::give_up_missing() {
 
 /// Asks for the first missing record, unless it is too early, or gives it up.
 void SerialSession::ask_again(Clock::time_point now) {
-  const std::uint32_t missing = records_.next();
+  if (numbers_are_used_up()) return resend_.dispel_doubt();
+  const auto missing = static_cast<std::uint32_t>(records_.next());
   if (now < resend_.due(missing)) return;
   if (behind() && resend_.in_vain(missing, now)) return give_up_missing();
   resend_.ask(missing, now);
@@ -136,12 +150,12 @@ void SerialSession::break_silence(Clock::time_point now) {
   heard_at_ = now;
   ++silences_;
   if (acknowledgement_.stored() > 0) output_ += encode_line(protocol::kAcknowledgeTag, acknowledgement_.stored());
-  if (records_.complete()) return;
+  if (records_.complete() || numbers_are_used_up()) return;
   if (silences_ % kSilencesToRestart == 0) {
     starts_ = 0;
     start(now);
   } else {
-    output_ += encode_line(protocol::kMissingTag, records_.next());
+    output_ += encode_line(protocol::kMissingTag, static_cast<std::uint32_t>(records_.next()));
   }
 }
 
@@ -149,8 +163,9 @@ SerialSession::Clock::time_point SerialSession::next_tick() const {
   if (stage_ == Stage::starting) return started_at_ + settings_.start_interval;
   if (stage_ != Stage::running) return Clock::time_point::max();
   const Clock::time_point silent_at = heard_at_ + settings_.silence;
-  if (behind()) return std::min(silent_at, resend_.due(records_.next()));
-  if (resend_.doubtful()) return std::min(silent_at, resend_.due_after_doubt(records_.next()));
+  const auto missing = static_cast<std::uint32_t>(records_.next());
+  if (behind()) return std::min(silent_at, resend_.due(missing));
+  if (resend_.doubtful()) return std::min(silent_at, resend_.due_after_doubt(missing));
   return silent_at;
 }
 

@@ -68,7 +68,7 @@ class SerialSession {
   [[nodiscard]] bool behind() const { return records_.behind(); }
 
   /// Sequence of the newest record that was delivered or given up.
-  [[nodiscard]] std::uint32_t last() const { return records_.next() - 1; }
+  [[nodiscard]] std::uint32_t last() const { return static_cast<std::uint32_t>(records_.next() - 1); }
 
   /// The device said that the program is finished, and every record was handed out.
   [[nodiscard]] bool finished() const { return records_.complete() && records_.points().empty(); }
@@ -76,6 +76,8 @@ class SerialSession {
  private:
   enum class Stage : std::uint8_t { down, starting, running, stopped };
 
+  [[nodiscard]] bool numbers_are_used_up() const;
+  void stop(const std::string& why);
   void start(Clock::time_point now);
   void run_named(std::uint32_t run_id, Clock::time_point now);
   void point_came(const ProbePoint& point, Clock::time_point now, std::int64_t time_us);
