@@ -42,17 +42,29 @@ void Publication::run() {
 void Publication::take_news() {
   FitOutput output;
   while (shared_.to_publication.ring.pop(output)) {
-    if (output.forget) {
-      tally_.clear();
-      last_sequence_ = 0;
-      continue;
-    }
-    tally_.accept(output.verdict);
-    last_sequence_ = std::max(last_sequence_, output.verdict.sequence);
+    take(output);
   }
   // Figures are taken after the verdicts: they are never older than those.
   [[maybe_unused]] const bool newer_fit = shared_.fit_figures.take(figures_);
   [[maybe_unused]] const bool newer_link = shared_.link_figures.take(link_);
+}
+
+void Publication::take(const FitOutput& output) {
+  const Verdict& verdict = output.verdict;
+  switch (output.kind) {
+    case FitOutput::Kind::forgotten:
+      tally_.clear();
+      last_ = {};
+      return;
+    case FitOutput::Kind::given_up:
+      return tally_.give_up(verdict.sequence);
+    case FitOutput::Kind::judged:
+    case FitOutput::Kind::judged_last:
+      break;
+  }
+  tally_.accept(verdict);
+  if (verdict.sequence >= last_.sequence) last_ = verdict;
+  if (output.kind == FitOutput::Kind::judged_last) tally_.give_up(verdict.sequence);
 }
 
 void Publication::update_state() {
@@ -126,22 +138,18 @@ void Publication::update_verdict() {
 }
 
 void Publication::update_last() {
-  const Verdict* const last = tally_.find(last_sequence_);
-  const Verdict verdict = last != nullptr ? *last : Verdict{};
-  state_.last_sequence = verdict.sequence;
-  state_.last_distance = to_float(verdict.foot.distance);
-  state_.last_state = verdict.state;
-  state_.last_action = verdict.action;
-  state_.last_region = verdict.region;
+  state_.last_sequence = last_.sequence;
+  state_.last_distance = to_float(last_.foot.distance);
+  state_.last_state = last_.state;
+  state_.last_action = last_.action;
+  state_.last_region = last_.region;
 }
 
 void Publication::update_places() {
   state_.newest.fill({});
-  const auto out = tally_.leading_edge_out();
-  const std::size_t count = std::min(out.size(), kPanelPlaces);
-  for (std::size_t place = 0; place < count; ++place) {
-    const Verdict* const verdict = tally_.find(out[out.size() - 1 - place]);
-    if (verdict != nullptr) state_.newest[place] = place_of(*verdict, axis_);
+  const std::vector<Verdict> out = tally_.newest_leading_edge_out();
+  for (std::size_t place = 0; place < std::min(out.size(), kPanelPlaces); ++place) {
+    state_.newest[place] = place_of(out[place], axis_);
   }
 }
 

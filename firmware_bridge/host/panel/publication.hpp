@@ -18,12 +18,10 @@ class Publication {
   /// Runs until HostShared::panel_closed is set and the fit is done.
   void run();
 
-  /// The newest verdicts; once run() has returned.
-  [[nodiscard]] const Tally& tally() const { return tally_; }
-
  private:
   using Clock = std::chrono::steady_clock;
   void take_news();
+  void take(const FitOutput& output);
   void update_state();
   void update_counts();
   void update_fit();
@@ -42,7 +40,7 @@ class Publication {
   FitFigures figures_;
   LinkFigures link_;
   PanelState state_;
-  std::uint32_t last_sequence_ = 0;
+  Verdict last_;  ///< of the newest point
   std::uint64_t acknowledged_times_out_ = 0;
   std::uint64_t acknowledged_losses_ = 0;
   Clock::time_point start_ = Clock::now();
