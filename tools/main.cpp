@@ -7,6 +7,7 @@
 #include "tools/commands/localize_command.hpp"
 #include "tools/commands/loft_command.hpp"
 #include "tools/commands/panel_command.hpp"
+#include "tools/commands/recover_command.hpp"
 #include "tools/commands/report_command.hpp"
 #include "tools/commands/reproduce_command.hpp"
 #include "tools/commands/run_command.hpp"
@@ -41,6 +42,7 @@ int run(int argc, char** argv) {
   bladefit::add_run_command(app, exit_code);
   bladefit::add_panel_command(app, exit_code);
   bladefit::add_report_command(app, exit_code);
+  bladefit::add_recover_command(app, exit_code);
   bladefit::add_reproduce_command(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -28,8 +28,8 @@ void RingReader::restart(std::uint32_t after) {
   next_ = std::uint64_t{after} + 1;
   taken_ = floor_ = after;
   newest_ = 0;
-  tries_ = losses_seen_ = overflow_changes_seen_ = finishes_seen_ = overshoots_seen_ = goes_back_seen_ = 0;
-  confirmed_ = 0;
+  tries_ = 0;
+  seen_ = {};
   overflow_ = stopped_ = false;
 }
 
@@ -52,8 +52,8 @@ void RingReader::observe(const CmmHeader& header) {
 /// id. Its records would be taken for those of the blade before.
 bool RingReader::goes_back(const CmmHeader& header) {
   const bool older = header.newest != 0 && header.newest < floor_;
-  goes_back_seen_ = older ? goes_back_seen_ + 1 : 0;
-  if (goes_back_seen_ < kHeadersForRestart) return older;
+  seen_.going_back = older ? seen_.going_back + 1 : 0;
+  if (seen_.going_back < kHeadersForRestart) return older;
   stopped_ = true;
   const char* const why = taken_ == std::numeric_limits<std::uint32_t>::max()
                               ? "there is no number beyond that"
@@ -67,19 +67,19 @@ bool RingReader::goes_back(const CmmHeader& header) {
 /// What was given up is so for good once headers in a row know of the records: else those were never there.
 void RingReader::note_last(const CmmHeader& header) {
   const bool given_up = next_ > std::uint64_t{taken_} + 1;
-  if (given_up && std::uint64_t{header.newest} + 1 >= next_)
-    confirmed_ = std::min(confirmed_ + 1, kHeadersForOvershoot);
-  if (points_.empty() && (!given_up || confirmed_ == kHeadersForOvershoot)) {
-    status_.last = static_cast<std::uint32_t>(next_ - 1);
-  }
+  const bool known = std::uint64_t{header.newest} + 1 >= next_;
+  if (given_up) seen_.given_up = known ? std::min(seen_.given_up + 1, kHeadersForOvershoot) : 0;
+  const bool certain = !given_up || seen_.given_up == kHeadersForOvershoot;
+  if (points_.empty() && certain) status_.last = static_cast<std::uint32_t>(next_ - 1);
+  status_.behind = tries_ > 0 || !certain;
 }
 
 /// Records were given up because headers named newer ones, which later headers know nothing of: the former were wrong.
 void RingReader::take_back_overshoot(const CmmHeader& header) {
   const bool overshot = next_ > std::uint64_t{taken_} + 1 && std::uint64_t{header.newest} + 1 < next_;
-  overshoots_seen_ = overshot ? overshoots_seen_ + 1 : 0;
-  if (overshoots_seen_ < kHeadersForOvershoot) return;
-  overshoots_seen_ = 0;
+  seen_.overshoots = overshot ? seen_.overshoots + 1 : 0;
+  if (seen_.overshoots < kHeadersForOvershoot) return;
+  seen_.overshoots = 0;
   note_fault(status_, fmt::format("the device named records up to {} that it does not hold; reading goes on at {}",
                                   next_ - 1, taken_ + 1));
   next_ = std::uint64_t{taken_} + 1;
@@ -105,17 +105,17 @@ bool RingReader::adopt_identity(const CmmHeader& header) {
 void RingReader::note_losses(const CmmHeader& header) {
   note_overflow((header.status & settings_.map.overflow_mask) != 0);
   const bool lost = header.newest > header.capacity && header.newest - header.capacity >= next_;
-  losses_seen_ = lost ? losses_seen_ + 1 : 0;
-  if (losses_seen_ < kHeadersForLoss) return;
-  losses_seen_ = 0;
+  seen_.losses = lost ? seen_.losses + 1 : 0;
+  if (seen_.losses < kHeadersForLoss) return;
+  seen_.losses = 0;
   skip_to(std::uint64_t{header.newest} - header.capacity + 1, "overwritten in the device before they were read");
 }
 
 /// The bit may stay set for long after a loss; it means another one only after it was cleared.
 void RingReader::note_overflow(bool reported) {
-  overflow_changes_seen_ = reported != overflow_ ? overflow_changes_seen_ + 1 : 0;
-  if (overflow_changes_seen_ < kHeadersForLoss) return;
-  overflow_changes_seen_ = 0;
+  seen_.overflow_changes = reported != overflow_ ? seen_.overflow_changes + 1 : 0;
+  if (seen_.overflow_changes < kHeadersForLoss) return;
+  seen_.overflow_changes = 0;
   overflow_ = reported;
   if (!reported) return;
   note_unnumbered_loss(status_,
@@ -124,12 +124,12 @@ void RingReader::note_overflow(bool reported) {
 
 void RingReader::note_finish(const CmmHeader& header) {
   const bool finished = (header.status & settings_.map.finished_mask) != 0 && header.newest == next_ - 1;
-  finishes_seen_ = finished ? std::min(finishes_seen_ + 1, kHeadersForFinish) : 0;
-  status_.finished = finishes_seen_ == kHeadersForFinish && points_.empty();
+  seen_.finishes = finished ? std::min(seen_.finishes + 1, kHeadersForFinish) : 0;
+  status_.finished = seen_.finishes == kHeadersForFinish && points_.empty();
 }
 
 RecordBatch RingReader::next_batch() const {
-  if (!current_ || stopped_ || losses_seen_ > 0 || goes_back_seen_ > 0 || current_->newest < next_) return {};
+  if (!current_ || stopped_ || seen_.losses > 0 || seen_.going_back > 0 || current_->newest < next_) return {};
   const auto first = static_cast<std::uint32_t>(next_);
   const std::uint32_t slot = (first - 1) % current_->capacity;
   const auto most = static_cast<std::uint32_t>(MODBUS_MAX_READ_REGISTERS / settings_.map.record_size);
@@ -146,6 +146,7 @@ bool RingReader::accept(const RecordBatch& batch, std::span<const std::uint16_t>
     if (const Failure failure = decode_record(registers.subspan(index * size, size), settings_.map,
                                               static_cast<std::uint32_t>(next_), point)) {
       damaged(failure.message);
+      status_.behind = true;
       return false;
     }
     point.time_us = time_us;
@@ -156,6 +157,7 @@ bool RingReader::accept(const RecordBatch& batch, std::span<const std::uint16_t>
     status_.finished = false;
   }
   note_good(status_);
+  status_.behind = false;
   return true;
 }
 
@@ -173,7 +175,7 @@ void RingReader::damaged(const std::string& fault) {
 void RingReader::skip_to(std::uint64_t sequence, const std::string& why) {
   note_loss(status_, lost_points(static_cast<std::uint32_t>(next_), static_cast<std::uint32_t>(sequence - 1), why));
   next_ = sequence;
-  tries_ = confirmed_ = 0;
+  tries_ = seen_.given_up = 0;
 }
 
 }  // namespace bladefit

@@ -52,7 +52,7 @@ class RingReader {
 
   /// Whether the device, as its last header has it, holds or held the record: it must not be told that others are
   /// stored. One that was switched on again and has no record yet is to be told where to go on.
-  [[nodiscard]] bool knows(std::uint32_t sequence) const { return goes_back_seen_ == 0 && newest_ >= sequence; }
+  [[nodiscard]] bool knows(std::uint32_t sequence) const { return seen_.going_back == 0 && newest_ >= sequence; }
   [[nodiscard]] bool holds_none() const { return newest_ == 0; }
 
  private:
@@ -76,9 +76,12 @@ class RingReader {
   std::uint32_t floor_ = 0;   ///< the device's newest record is not older, or it numbers anew
   std::uint32_t newest_ = 0;  ///< as the last header has it, whether it is believed or not
   int tries_ = 0;             ///< how often the record next_ was found damaged
-  /// Headers in a row that say so.
-  int losses_seen_ = 0, overflow_changes_seen_ = 0, finishes_seen_ = 0, overshoots_seen_ = 0, goes_back_seen_ = 0;
-  int confirmed_ = 0;      ///< headers that know of the records given up last
+  /// How many headers in a row say so.
+  struct Seen {
+    int losses = 0, overflow_changes = 0, finishes = 0, overshoots = 0;
+    int going_back = 0;
+    int given_up = 0;  ///< that they know of the records given up last
+  } seen_;
   bool overflow_ = false;  ///< the overflow bit is set, as headers in a row say
   bool stopped_ = false;
 };

@@ -16,6 +16,7 @@ namespace protocol = serial_protocol_v1;
 namespace {
 
 constexpr int kStartsToLost = 3;       ///< unanswered $START in a row after which the link counts as lost
+constexpr int kOlderEndsToStop = 2;    ///< ends in a row that lie before a record which was taken
 constexpr int kSilencesToRestart = 5;  ///< intervals of silence after which $START asks whether the device still lives
 
 }  // namespace
@@ -27,6 +28,7 @@ void SerialSession::restart(std::uint32_t after, std::uint32_t run_id) {
   acknowledgement_.restart(after, after);
   output_.clear();
   run_id_ = run_id;
+  older_ends_ = 0;
 }
 
 void SerialSession::link_made(Clock::time_point now) {
@@ -95,17 +97,32 @@ void SerialSession::point_came(const ProbePoint& point, Clock::time_point now, s
   stamped.time_us = time_us;
   const RecordOrder::Place place = records_.take(stamped);
   if (place == RecordOrder::Place::old || place == RecordOrder::Place::ahead_again) ++status_.duplicates;
-  if (place == RecordOrder::Place::delivered) return resend_.dispel_doubt();
+  if (place == RecordOrder::Place::delivered) {
+    older_ends_ = 0;
+    return resend_.dispel_doubt();
+  }
   if (place != RecordOrder::Place::old) ask_again(now);
 }
 
 void SerialSession::end_named(std::uint32_t last, Clock::time_point now) {
-  if (!records_.end_at(last)) return;
+  if (!records_.end_at(last)) return older_end_named(last);
+  older_ends_ = 0;
   if (records_.complete()) {
     resend_.dispel_doubt();
   } else {
     ask_again(now);
   }
+}
+
+/// The program of a device that numbers its records anew ends before those of the blade before. Once may be an older
+/// line.
+void SerialSession::older_end_named(std::uint32_t last) {
+  if (++older_ends_ < kOlderEndsToStop) return;
+  status_.stopped = fmt::format(
+      "the device's program ends with record {} although record {} was read before: it has begun to number its records "
+      "anew, and its run id has not changed; start a session in another folder for the new records",
+      last, records_.next() - 1);
+  stop(status_.stopped);
 }
 
 void SerialSession::give_up_missing() {

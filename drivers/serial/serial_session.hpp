@@ -83,6 +83,7 @@ class SerialSession {
   void point_came(const ProbePoint& point, Clock::time_point now, std::int64_t time_us);
   void end_named(std::uint32_t last, Clock::time_point now);
   void ask_again(Clock::time_point now);
+  void older_end_named(std::uint32_t last);
   void give_up_missing();
   void break_silence(Clock::time_point now);
 
@@ -94,6 +95,7 @@ class SerialSession {
   Acknowledgement acknowledgement_;
   std::string output_;
   std::uint32_t run_id_ = 0;        ///< of the records that were taken; what $RUN named where none were
+  int older_ends_ = 0;              ///< in a row
   int starts_ = 0;                  ///< $START sent in a row without an answer
   Clock::time_point started_at_{};  ///< time of the last $START
   int silences_ = 0;                ///< intervals of silence in a row

@@ -127,6 +127,7 @@ void Acquisition::follow_source() {
 void Acquisition::take_losses(const SourceStatus& status) {
   if (status.last > last_sequence_) {
     last_sequence_ = status.last;
+    last_point_ = Clock::now();
     StreamEvent lost{EventKind::lost, {}};
     lost.point.sequence = status.last;
     take(lost);

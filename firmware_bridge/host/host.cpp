@@ -79,7 +79,8 @@ struct Host::Running {
   std::optional<Acquisition> acquisition;
   std::optional<FitWorker> fit;
   std::optional<Publication> publication;
-  std::vector<std::thread> threads;
+  std::thread panel;
+  std::vector<std::thread> threads;  ///< the others
 
   [[nodiscard]] Failure open_journal(const HostSettings& settings, const SessionIdentity& identity);
   [[nodiscard]] Failure make_localizer(const LocalizerConfig& config, const DesignImage& design);
@@ -113,10 +114,10 @@ Host::Host(HostSettings settings, const DesignImage& design, ProbeSource& source
 Host::~Host() {
   if (!running_) return;
   request_stop();
-  shared_.panel_closed.store(true);
   for (std::thread& thread : running_->threads) {
     if (thread.joinable()) thread.join();
   }
+  close_panel();
 }
 
 Failure Host::start() {
@@ -137,7 +138,7 @@ Failure Host::start() {
   running.acquisition.emplace(acquisition, running.recorded, source_, running.journal, shared_);
   running.fit.emplace(*running.localizer, settings_.localizer.capacity, settings_.path_refine_points, shared_);
   running.publication.emplace(settings_.localizer.tolerance, settings_.axis, running.server, shared_);
-  running.threads.emplace_back([&running] { running.publication->run(); });
+  running.panel = std::thread([&running] { running.publication->run(); });
   running.threads.emplace_back([&running] { running.fit->run(); });
   running.threads.emplace_back([&running, this] { write_journal(running.journal, shared_); });
   running.threads.emplace_back([&running] { running.acquisition->run(); });
@@ -157,9 +158,17 @@ bool Host::wait_for_end(std::chrono::milliseconds timeout) {
 
 void Host::request_stop() { shared_.requests.stop.store(true); }
 
-SessionResult Host::finish() {
+PanelState Host::panel_state() const { return running_->publication->shown(); }
+
+void Host::conclude(const BladeVerdict& verdict) { running_->publication->conclude(verdict); }
+
+void Host::close_panel() {
   shared_.panel_closed.store(true);
   shared_.to_publication.wakeup.signal();
+  if (running_->panel.joinable()) running_->panel.join();
+}
+
+SessionResult Host::finish() {
   for (std::thread& thread : running_->threads) thread.join();
   SessionResult result{.end = shared_.outcome.end(),
                        .error = shared_.outcome.failure(),

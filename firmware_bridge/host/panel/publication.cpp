@@ -7,6 +7,7 @@ namespace bladefit {
 namespace {
 
 constexpr std::chrono::milliseconds kLongestWait{100};
+constexpr std::chrono::seconds kLongestLinger{1};
 
 float to_float(double value) { return static_cast<float>(value); }
 
@@ -31,22 +32,55 @@ void Publication::run() {
   while (true) {
     const bool last_turn = shared_.panel_closed.load() && shared_.fit_done.load();
     shared_.to_publication.wakeup.clear();
-    take_news();
-    update_state();
-    server_.serve(encode_panel(state_), on_commands);
-    if (last_turn) return;
+    if (take_news() || last_turn || pressed_ || Clock::now() - updated_ >= kLongestWait) show();
+    server_.serve(image_, on_commands);
+    if (last_turn) return linger();
     server_.wait(shared_.to_publication.wakeup.descriptor(), kLongestWait);
   }
 }
 
-void Publication::take_news() {
+/// Clients that ask now and then are to see the end.
+void Publication::linger() {
+  const Clock::time_point end = Clock::now();
+  while (!server_.has_told_all(end) && Clock::now() < end + kLongestLinger) {
+    server_.wait(shared_.to_publication.wakeup.descriptor(), kLongestWait);
+    server_.serve(image_, [](const PanelCommands&) {});
+    shared_.to_publication.wakeup.clear();
+  }
+}
+
+void Publication::show() {
+  pressed_ = false;
+  updated_ = Clock::now();
+  const std::lock_guard lock(common_.mutex);
+  update_state();
+  common_.shown = state_;
+  common_.shown.has_extension = true;
+  image_ = encode_panel(state_);
+}
+
+PanelState Publication::shown() {
+  const std::lock_guard lock(common_.mutex);
+  return common_.shown;
+}
+
+void Publication::conclude(const BladeVerdict& verdict) {
+  const std::lock_guard lock(common_.mutex);
+  common_.concluded = verdict;
+}
+
+/// True where there were any.
+bool Publication::take_news() {
+  bool any = false;
   FitOutput output;
   while (shared_.to_publication.ring.pop(output)) {
     take(output);
+    any = true;
   }
   // Figures are taken after the verdicts: they are never older than those.
-  [[maybe_unused]] const bool newer_fit = shared_.fit_figures.take(figures_);
-  [[maybe_unused]] const bool newer_link = shared_.link_figures.take(link_);
+  const bool newer_fit = shared_.fit_figures.take(figures_);
+  const bool newer_link = shared_.link_figures.take(link_);
+  return any || newer_fit || newer_link;
 }
 
 void Publication::take(const FitOutput& output) {
@@ -116,7 +150,7 @@ void Publication::update_fit() {
 void Publication::update_verdict() {
   const FitReport& report = figures_.report;
   const TallyCounts& counts = tally_.counts();
-  const BladeVerdict verdict =
+  const BladeVerdict counted =
       judge_blade({.converged = report.status == FitStatus::converged,
                    .infeasible = report.status == FitStatus::infeasible,
                    .determined = report.determined,
@@ -131,6 +165,7 @@ void Publication::update_verdict() {
                    .zones_missed = tally_.zones().missed(),
                    .finished = figures_.losses.finished(),
                    .doubts = {}});
+  const BladeVerdict verdict = common_.concluded.value_or(counted);
   state_.verdict = verdict.state;
   state_.reasons = reason_bits(verdict.reasons);
   if (link_.link == LinkState::lost) state_.reasons |= kReasonLinkLost;
@@ -163,24 +198,25 @@ SessionState Publication::session_state() {
 
 std::uint16_t Publication::alarms() const {
   const FitReport& report = figures_.report;
-  const bool seen = tally_.times_out() == acknowledged_times_out_;
+  const bool seen = tally_.times_out() == acknowledged_.times_out;
   unsigned bits = 0;
   if (state_.leading_edge_out > 0 && !seen) bits |= kAlarmLeadingEdgeOut;
   if (state_.rest_out > 0 && !seen) bits |= kAlarmRestOut;
   if (link_.link == LinkState::lost) bits |= kAlarmLinkLost;
-  if (link_.losses != acknowledged_losses_) bits |= kAlarmDataGap;
+  if (link_.losses != acknowledged_.losses) bits |= kAlarmDataGap;
   if (report.memory_full) bits |= kAlarmMemoryFull;
   if (report.status == FitStatus::infeasible) bits |= kAlarmInfeasible;
   return static_cast<std::uint16_t>(bits);
 }
 
 void Publication::follow(const PanelCommands& commands) {
+  pressed_ = pressed_ || commands.start || commands.stop || commands.reset || commands.acknowledge;
   if (commands.start) shared_.requests.pause.store(false);
   if (commands.stop) shared_.requests.pause.store(true);
   if (commands.reset) shared_.requests.reset.store(true);
   if (!commands.acknowledge) return;
-  acknowledged_times_out_ = tally_.times_out();
-  acknowledged_losses_ = link_.losses;
+  acknowledged_.times_out = tally_.times_out();
+  acknowledged_.losses = link_.losses;
 }
 
 }  // namespace bladefit
