@@ -61,6 +61,7 @@ void count_in(LocalizerParts& p, const StoredPoint& point, const Measurement& m)
 /// index; size() of the store where it found none.
 std::uint32_t take_in(LocalizerParts& p, const StoredPoint& point, const Measurement& m) {
   count_in(p, point, m);
+  p.stream.displaced = 0;
   std::uint32_t index = p.store.size();
   if (!p.store.full()) {
     p.store.append(point);
@@ -73,6 +74,7 @@ std::uint32_t take_in(LocalizerParts& p, const StoredPoint& point, const Measure
       return index;
     }
     p.sums.evict(p.store[index], index, p.estimate.pose());
+    p.stream.displaced = p.store[index].sequence;
     p.store.replace(index, point);
   }
   p.store.record(p.store[index], m, p.estimate.revision());
@@ -247,6 +249,19 @@ Status Localizer::verdict_of(std::uint32_t sequence, Verdict& verdict) const {
   verdict = bladefit::verdict_of(points[index]);
   return Status::ok;
 }
+
+Status Localizer::judge_aside(const ProbePoint& point, Verdict& verdict) const {
+  LocalizerParts& p = *parts_;
+  if (const Status status = p.problem.check(point); status != Status::ok) return status;
+  StoredPoint passing = p.finder.new_point(point, p.stream.last_place);
+  const Measurement measured = p.finder.find(passing, p.estimate.pose(), Search::always);
+  p.store.record(passing, measured, p.estimate.revision());
+  p.verdicts.judge_aside(passing, evidence_of(p));
+  verdict = bladefit::verdict_of(passing);
+  return Status::ok;
+}
+
+std::uint32_t Localizer::displaced() const { return parts_->stream.displaced; }
 
 FitReport Localizer::fit() const { return report_of(*parts_); }
 

@@ -170,6 +170,13 @@ class Localizer {
   /// logarithmic.
   [[nodiscard]] Status verdict_of(std::uint32_t sequence, Verdict& verdict) const;
 
+  /// Judges a point that has no place, such as one that lost it, at the present pose, and changes nothing but the
+  /// count of searches. Returns ok; not_finite or out_of_range as push(). Cost: a search for its foot.
+  [[nodiscard]] Status judge_aside(const ProbePoint& point, Verdict& verdict) const;
+
+  /// Sequence of the point that lost its place to that of the last push(); 0 = none did. Cost: constant.
+  [[nodiscard]] std::uint32_t displaced() const;
+
   /// Forgets all points and goes back to the start pose.
   void reset();
 

@@ -8,7 +8,8 @@ namespace bladefit {
 struct StreamState {
   bool concluded = false;  ///< no more points will come
   std::uint32_t accepted = 0, last_sequence = 0;
-  SurfacePlace last_place;  ///< of the newest foot, where the next one is sought
+  std::uint32_t displaced = 0;  ///< sequence of the point whose place the newest one took; 0 = none
+  SurfacePlace last_place;      ///< of the newest foot, where the next one is sought
 };
 
 /// The parts of a localizer, each with its own state. They stand in the caller's memory and refer to each other, so

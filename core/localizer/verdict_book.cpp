@@ -53,11 +53,23 @@ VerdictBook::Finding VerdictBook::finding_of(const StoredPoint& point) const {
 
 void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   if (point.tolerance != 0.0) count(point, -1);
-  const Foot& foot = point.foot;
   if (!selection_.held()) {
-    point.region = problem_.region_of(foot);
-    point.tolerance = problem_.tolerance_of(foot);
+    point.region = problem_.region_of(point.foot);
+    point.tolerance = problem_.tolerance_of(point.foot);
   }
+  assess(point, evidence);
+  count(point, +1);
+}
+
+void VerdictBook::judge_aside(StoredPoint& point, const Evidence& evidence) const {
+  point.region = problem_.region_of(point.foot);
+  point.tolerance = problem_.tolerance_of(point.foot);
+  assess(point, evidence);
+}
+
+/// State, action and uncertainty of a point whose region and tolerance are known.
+void VerdictBook::assess(StoredPoint& point, const Evidence& evidence) const {
+  const Foot& foot = point.foot;
   const PoseEstimate::DistanceUncertainty uncertainty = evidence.estimate.uncertainty_of(point.position, foot);
   point.uncertainty = uncertainty.standard;
   const double length = (apply(evidence.estimate.pose(), point.position) - problem_.frame.pivot).norm();
@@ -67,14 +79,13 @@ void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
       tuning::kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : problem_.config.determined_mm);
   Finding finding = finding_of(point);
   if (finding.state != PointState::rejected) {
-    if (!evidence.settled && is_judged(point.state)) return count(point, +1);
+    if (!evidence.settled && is_judged(point.state)) return;
     const bool open = uncertainty.undetermined > pending_above || !evidence.enough || !evidence.settled;
     if (open) finding = {PointState::pending};
   }
   point.state = finding.state;
   point.action = finding.action;
   point.left_out = finding.left_out;
-  count(point, +1);
 }
 
 void VerdictBook::judge_new(StoredPoint& point, const Evidence& evidence) {

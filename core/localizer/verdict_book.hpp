@@ -25,6 +25,8 @@ class VerdictBook {
   void judge_new(StoredPoint& point, const Evidence& evidence);
   /// The same of a stored one: where that changes what the caller knows, a revision is queued.
   void judge_again(PointStore& store, std::uint32_t index, const Evidence& evidence);
+  /// Judges a point that has no place and is counted nowhere.
+  void judge_aside(StoredPoint& point, const Evidence& evidence) const;
   /// Region and tolerance of a point follow its foot, although regions are held.
   void assign_region(StoredPoint& point);
 
@@ -42,6 +44,7 @@ class VerdictBook {
   };
   [[nodiscard]] Finding finding_of(const StoredPoint& point) const;
   void judge(StoredPoint& point, const Evidence& evidence);
+  void assess(StoredPoint& point, const Evidence& evidence) const;
   void count(const StoredPoint& point, int sign);
 
   const FitProblem& problem_;

@@ -24,10 +24,10 @@ ModbusRequest write_request(const CmmMap& map, const NumberField& field, std::ui
 
 /// A device that goes on by itself is left alone, so that a short loss of the link does not make it probe anything
 /// again.
-std::uint16_t command_for(const CmmMap& map, const CmmHeader& header, std::uint32_t next, bool opening) {
+std::uint16_t command_for(const CmmMap& map, const CmmHeader& header, std::uint64_t next, bool opening) {
   if (!map.command.present) return 0;
   if (next == 1) return opening || header.newest == 0 ? map.command_start : std::uint16_t{0};
-  const bool behind = header.newest + 1 < next;
+  const bool behind = std::uint64_t{header.newest} + 1 < next;
   const bool active_known = map.status.present && map.probing_mask != 0;
   const bool active = (header.status & (map.probing_mask | map.finished_mask)) != 0;
   return behind || (active_known && !active) ? map.command_restart : std::uint16_t{0};

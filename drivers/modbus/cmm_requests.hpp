@@ -15,6 +15,6 @@ namespace bladefit {
 
 /// The command that a device which shows `header` needs, so that it probes record `next`; 0 = none. `opening`: the
 /// session begins, rather than the link came back.
-[[nodiscard]] std::uint16_t command_for(const CmmMap& map, const CmmHeader& header, std::uint32_t next, bool opening);
+[[nodiscard]] std::uint16_t command_for(const CmmMap& map, const CmmHeader& header, std::uint64_t next, bool opening);
 
 }  // namespace bladefit

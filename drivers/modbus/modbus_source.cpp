@@ -55,6 +55,7 @@ Failure ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
   while (stage_ != Stage::running || !headers_.enough_to_open()) {
     step(Clock::now() + settings_.reply_timeout);
     if (headers_.surely_foreign()) break;
+    if (ring_.stopped()) return open_error(status_.stopped);
     const bool never_connected = stage_ == Stage::down && !health_.ever_made();
     if (never_connected || Clock::now() > deadline) return open_error(status_.last_fault);
     if (!refusal_.empty()) return open_error(refusal_);
@@ -109,9 +110,9 @@ void ModbusSource::begin_transaction(Clock::time_point until) {
 
 /// The acknowledge, or the command after it. Returns false where there is nothing to be written.
 bool ModbusSource::begin_write() {
-  if (headers_.foreign()) return false;
+  if (headers_.foreign() || ring_.stopped()) return false;
   const CmmMap& map = settings_.map;
-  if (stage_ == Stage::announce || (stage_ == Stage::running && acknowledgement_.is_due())) {
+  if (may_acknowledge()) {
     const std::uint32_t sequence = acknowledgement_.send();
     if (map.acknowledge.present) {
       begin(Purpose::acknowledge, write_request(map, map.acknowledge, sequence));
@@ -128,6 +129,13 @@ bool ModbusSource::begin_write() {
     stage_ = Stage::running;
   }
   return false;
+}
+
+/// A device that numbers anew must not be told that records which it has yet to measure are stored.
+bool ModbusSource::may_acknowledge() const {
+  if (ring_.knows(acknowledgement_.stored()))
+    return stage_ == Stage::announce || (stage_ == Stage::running && acknowledgement_.is_due());
+  return stage_ == Stage::announce && ring_.holds_none();
 }
 
 /// The header when it is due, records otherwise. On a slow line the header is always due: records come after it.
@@ -180,6 +188,7 @@ void ModbusSource::transaction_done() {
       break;
     case Purpose::command:
       if (stage_ == Stage::command) stage_ = Stage::running;
+      if (next_command_ == settings_.map.command_restart) ring_.goes_on_behind(acknowledgement_.known());
       schedule_.delay_header(Clock::now());
       break;
   }
@@ -202,8 +211,8 @@ void ModbusSource::header_accepted(const CmmHeader& header) {
   const bool records_taken = ring_.next() > 1;
   // Those read while the device refuses the start cannot show its run.
   headers_.accept(header.run_id, records_taken, stage_ == Stage::identify || stage_ == Stage::running);
-  if (stage_ != Stage::running && !headers_.foreign()) identify(header);
   ring_.observe(header);
+  if (stage_ != Stage::running && !headers_.foreign() && !ring_.stopped()) identify(header);
   if (!records_taken) headers_.adopt(status_.run_id);
 }
 
@@ -284,7 +293,8 @@ void ModbusSource::close() {
   if (link_->is_open() && transaction_.purpose != Purpose::none) finish_transaction(until);
   const CmmMap& map = settings_.map;
   const bool talks = link_->is_open() && status_.link == LinkState::up && !headers_.foreign();
-  if (talks && acknowledgement_.is_due() && write_now(map.acknowledge, acknowledgement_.send(), until)) {
+  const bool due = acknowledgement_.is_due() && ring_.knows(acknowledgement_.stored());
+  if (talks && due && write_now(map.acknowledge, acknowledgement_.send(), until)) {
     acknowledgement_.confirm();
   }
   if (talks && !write_now(map.command, map.command_stop, until) && map.command.present) {

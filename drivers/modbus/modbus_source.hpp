@@ -41,6 +41,7 @@ class ModbusSource final : public ProbeSource {
   void finish_transaction(Clock::time_point until);
   void begin_transaction(Clock::time_point until);
   [[nodiscard]] bool begin_write();
+  [[nodiscard]] bool may_acknowledge() const;
   void begin_read(Clock::time_point now, Clock::time_point until);
   void begin(Purpose purpose, const ModbusRequest& request);
   void transaction_done();

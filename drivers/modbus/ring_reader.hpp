@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -40,11 +41,19 @@ class RingReader {
 
   [[nodiscard]] PointQueue& points() { return points_; }
 
-  /// Sequence of the next record wanted.
-  [[nodiscard]] std::uint32_t next() const { return next_; }
+  /// Sequence of the next record wanted; 2^32 where every number is used up.
+  [[nodiscard]] std::uint64_t next() const { return next_; }
 
   /// The numbering has restarted: nothing more is delivered.
   [[nodiscard]] bool stopped() const { return stopped_; }
+
+  /// The device was told to go on behind this record: it may show older ones again.
+  void goes_on_behind(std::uint32_t sequence) { floor_ = std::min(floor_, sequence); }
+
+  /// Whether the device, as its last header has it, holds or held the record: it must not be told that others are
+  /// stored. One that was switched on again and has no record yet is to be told where to go on.
+  [[nodiscard]] bool knows(std::uint32_t sequence) const { return seen_.going_back == 0 && newest_ >= sequence; }
+  [[nodiscard]] bool holds_none() const { return newest_ == 0; }
 
  private:
   [[nodiscard]] bool adopt_identity(const CmmHeader& header);
@@ -52,18 +61,27 @@ class RingReader {
   void note_overflow(bool reported);
   void note_finish(const CmmHeader& header);
   void take_back_overshoot(const CmmHeader& header);
+  [[nodiscard]] bool goes_back(const CmmHeader& header);
+  void note_last(const CmmHeader& header);
   void damaged(const std::string& fault);
-  void skip_to(std::uint32_t sequence, const std::string& why);
+  void skip_to(std::uint64_t sequence, const std::string& why);
 
   const ModbusSettings& settings_;
   SourceStatus& status_;
   PointQueue points_;
   std::optional<CmmHeader> current_;   ///< the header whose identity is believed, newest included
   std::optional<CmmHeader> previous_;  ///< the header before this one
-  std::uint32_t next_ = 1;
-  std::uint32_t taken_ = 0;  ///< last record that was good
-  int tries_ = 0;            ///< how often the record next_ was found damaged
-  int losses_seen_ = 0, overflow_changes_seen_ = 0, finishes_seen_ = 0, overshoots_seen_ = 0;
+  std::uint64_t next_ = 1;
+  std::uint32_t taken_ = 0;   ///< last record that was good
+  std::uint32_t floor_ = 0;   ///< the device's newest record is not older, or it numbers anew
+  std::uint32_t newest_ = 0;  ///< as the last header has it, whether it is believed or not
+  int tries_ = 0;             ///< how often the record next_ was found damaged
+  /// How many headers in a row say so.
+  struct Seen {
+    int losses = 0, overflow_changes = 0, finishes = 0, overshoots = 0;
+    int going_back = 0;
+    int given_up = 0;  ///< that they know of the records given up last
+  } seen_;
   bool overflow_ = false;  ///< the overflow bit is set, as headers in a row say
   bool stopped_ = false;
 };

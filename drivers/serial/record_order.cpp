@@ -10,7 +10,7 @@ constexpr std::size_t kMostAhead = 4096;  ///< records kept behind a missing one
 void RecordOrder::restart(std::uint32_t after) {
   points_.clear();
   ahead_.clear();
-  next_ = after + 1;
+  next_ = std::uint64_t{after} + 1;
   end_.reset();
 }
 
@@ -27,7 +27,7 @@ RecordOrder::Place RecordOrder::take(const ProbePoint& point) {
 /// Hands out a record and those kept behind it. A record beyond the end given before means that probing goes on.
 void RecordOrder::deliver(const ProbePoint& point) {
   points_.push(point);
-  next_ = point.sequence + 1;
+  next_ = std::uint64_t{point.sequence} + 1;
   while (!ahead_.empty() && ahead_.begin()->first <= next_) {
     if (ahead_.begin()->first == next_) {
       points_.push(ahead_.begin()->second);
@@ -35,19 +35,19 @@ void RecordOrder::deliver(const ProbePoint& point) {
     }
     ahead_.erase(ahead_.begin());
   }
-  if (end_ && next_ > *end_ + 1) end_.reset();
+  if (end_ && next_ > std::uint64_t{*end_} + 1) end_.reset();
 }
 
 bool RecordOrder::end_at(std::uint32_t last) {
-  if (last + 1 < next_) return false;
+  if (std::uint64_t{last} + 1 < next_) return false;
   end_ = last;
   return true;
 }
 
 RecordOrder::Gap RecordOrder::skip_missing() {
-  const std::uint32_t first = next_;
+  const auto first = static_cast<std::uint32_t>(next_);
   if (ahead_.empty()) {
-    next_ = *end_ + 1;
+    next_ = std::uint64_t{*end_} + 1;
     return {first, *end_, false};
   }
   const ProbePoint point = ahead_.begin()->second;

@@ -39,13 +39,14 @@ class RecordOrder {
   /// Gives up the records that are missing; behind() must be true.
   Gap skip_missing();
 
-  [[nodiscard]] std::uint32_t next() const { return next_; }
+  /// Sequence of the next record wanted; 2^32 where every number is used up.
+  [[nodiscard]] std::uint64_t next() const { return next_; }
 
   /// Records are missing ahead of others that came, or ahead of the end that the device gave.
   [[nodiscard]] bool behind() const { return !ahead_.empty() || (end_ && *end_ >= next_); }
 
   /// Every record up to the end was delivered.
-  [[nodiscard]] bool complete() const { return end_ && *end_ + 1 == next_; }
+  [[nodiscard]] bool complete() const { return end_ && std::uint64_t{*end_} + 1 == next_; }
 
   [[nodiscard]] PointQueue& points() { return points_; }
   [[nodiscard]] const PointQueue& points() const { return points_; }
@@ -55,7 +56,7 @@ class RecordOrder {
 
   PointQueue points_;
   std::map<std::uint32_t, ProbePoint> ahead_;  ///< records behind a missing one
-  std::uint32_t next_ = 1;
+  std::uint64_t next_ = 1;
   std::optional<std::uint32_t> end_;  ///< last sequence of the program, as the device gave it
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "drivers/serial/protocol_v1.hpp"
@@ -15,6 +16,7 @@ namespace protocol = serial_protocol_v1;
 namespace {
 
 constexpr int kStartsToLost = 3;       ///< unanswered $START in a row after which the link counts as lost
+constexpr int kOlderEndsToStop = 2;    ///< ends in a row that lie before a record which was taken
 constexpr int kSilencesToRestart = 5;  ///< intervals of silence after which $START asks whether the device still lives
 
 }  // namespace
@@ -26,6 +28,7 @@ void SerialSession::restart(std::uint32_t after, std::uint32_t run_id) {
   acknowledgement_.restart(after, after);
   output_.clear();
   run_id_ = run_id;
+  older_ends_ = 0;
 }
 
 void SerialSession::link_made(Clock::time_point now) {
@@ -35,7 +38,22 @@ void SerialSession::link_made(Clock::time_point now) {
   start(now);
 }
 
+bool SerialSession::numbers_are_used_up() const { return records_.next() > std::numeric_limits<std::uint32_t>::max(); }
+
+/// The numbering has restarted, or must.
+void SerialSession::stop(const std::string& why) {
+  stage_ = Stage::stopped;
+  records_.forget_end();
+  note_fault(status_, why);
+}
+
 void SerialSession::start(Clock::time_point now) {
+  if (acknowledgement_.stored() == std::numeric_limits<std::uint32_t>::max()) {
+    status_.stopped =
+        "the session holds record 4294967295, and there is no number beyond that; start a session in "
+        "another folder for further records";
+    return stop(status_.stopped);
+  }
   stage_ = Stage::starting;
   started_at_ = now;
   ++starts_;
@@ -61,13 +79,10 @@ void SerialSession::received(const SerialMessage& message, Clock::time_point now
 void SerialSession::run_named(std::uint32_t run_id, Clock::time_point now) {
   status_.run_id = run_id;
   if (records_.next() > 1 && run_id != run_id_) {
-    stage_ = Stage::stopped;
-    records_.forget_end();
-    note_fault(status_,
-               fmt::format("the device has begun another run ({} instead of {}) and numbers its records from 1 "
-                           "again; end this session and start a new one",
-                           run_id, run_id_));
-    return;
+    return stop(
+        fmt::format("the device has begun another run ({} instead of {}) and numbers its records from 1 again; end "
+                    "this session and start a new one",
+                    run_id, run_id_));
   }
   run_id_ = run_id;
   status_.link = LinkState::up;
@@ -82,17 +97,32 @@ void SerialSession::point_came(const ProbePoint& point, Clock::time_point now, s
   stamped.time_us = time_us;
   const RecordOrder::Place place = records_.take(stamped);
   if (place == RecordOrder::Place::old || place == RecordOrder::Place::ahead_again) ++status_.duplicates;
-  if (place == RecordOrder::Place::delivered) return resend_.dispel_doubt();
+  if (place == RecordOrder::Place::delivered) {
+    older_ends_ = 0;
+    return resend_.dispel_doubt();
+  }
   if (place != RecordOrder::Place::old) ask_again(now);
 }
 
 void SerialSession::end_named(std::uint32_t last, Clock::time_point now) {
-  if (!records_.end_at(last)) return;
+  if (!records_.end_at(last)) return older_end_named(last);
+  older_ends_ = 0;
   if (records_.complete()) {
     resend_.dispel_doubt();
   } else {
     ask_again(now);
   }
+}
+
+/// The program of a device that numbers its records anew ends before those of the blade before. Once may be an older
+/// line.
+void SerialSession::older_end_named(std::uint32_t last) {
+  if (++older_ends_ < kOlderEndsToStop) return;
+  status_.stopped = fmt::format(
+      "the device's program ends with record {} although record {} was read before: it has begun to number its records "
+      "anew, and its run id has not changed; start a session in another folder for the new records",
+      last, records_.next() - 1);
+  stop(status_.stopped);
 }
 
 void SerialSession::give_up_missing() {
@@ -104,7 +134,8 @@ void SerialSession::give_up_missing() {
 
 /// Asks for the first missing record, unless it is too early, or gives it up.
 void SerialSession::ask_again(Clock::time_point now) {
-  const std::uint32_t missing = records_.next();
+  if (numbers_are_used_up()) return resend_.dispel_doubt();
+  const auto missing = static_cast<std::uint32_t>(records_.next());
   if (now < resend_.due(missing)) return;
   if (behind() && resend_.in_vain(missing, now)) return give_up_missing();
   resend_.ask(missing, now);
@@ -136,12 +167,12 @@ void SerialSession::break_silence(Clock::time_point now) {
   heard_at_ = now;
   ++silences_;
   if (acknowledgement_.stored() > 0) output_ += encode_line(protocol::kAcknowledgeTag, acknowledgement_.stored());
-  if (records_.complete()) return;
+  if (records_.complete() || numbers_are_used_up()) return;
   if (silences_ % kSilencesToRestart == 0) {
     starts_ = 0;
     start(now);
   } else {
-    output_ += encode_line(protocol::kMissingTag, records_.next());
+    output_ += encode_line(protocol::kMissingTag, static_cast<std::uint32_t>(records_.next()));
   }
 }
 
@@ -149,8 +180,9 @@ SerialSession::Clock::time_point SerialSession::next_tick() const {
   if (stage_ == Stage::starting) return started_at_ + settings_.start_interval;
   if (stage_ != Stage::running) return Clock::time_point::max();
   const Clock::time_point silent_at = heard_at_ + settings_.silence;
-  if (behind()) return std::min(silent_at, resend_.due(records_.next()));
-  if (resend_.doubtful()) return std::min(silent_at, resend_.due_after_doubt(records_.next()));
+  const auto missing = static_cast<std::uint32_t>(records_.next());
+  if (behind()) return std::min(silent_at, resend_.due(missing));
+  if (resend_.doubtful()) return std::min(silent_at, resend_.due_after_doubt(missing));
   return silent_at;
 }
 

@@ -68,7 +68,7 @@ class SerialSession {
   [[nodiscard]] bool behind() const { return records_.behind(); }
 
   /// Sequence of the newest record that was delivered or given up.
-  [[nodiscard]] std::uint32_t last() const { return records_.next() - 1; }
+  [[nodiscard]] std::uint32_t last() const { return static_cast<std::uint32_t>(records_.next() - 1); }
 
   /// The device said that the program is finished, and every record was handed out.
   [[nodiscard]] bool finished() const { return records_.complete() && records_.points().empty(); }
@@ -76,11 +76,14 @@ class SerialSession {
  private:
   enum class Stage : std::uint8_t { down, starting, running, stopped };
 
+  [[nodiscard]] bool numbers_are_used_up() const;
+  void stop(const std::string& why);
   void start(Clock::time_point now);
   void run_named(std::uint32_t run_id, Clock::time_point now);
   void point_came(const ProbePoint& point, Clock::time_point now, std::int64_t time_us);
   void end_named(std::uint32_t last, Clock::time_point now);
   void ask_again(Clock::time_point now);
+  void older_end_named(std::uint32_t last);
   void give_up_missing();
   void break_silence(Clock::time_point now);
 
@@ -92,6 +95,7 @@ class SerialSession {
   Acknowledgement acknowledgement_;
   std::string output_;
   std::uint32_t run_id_ = 0;        ///< of the records that were taken; what $RUN named where none were
+  int older_ends_ = 0;              ///< in a row
   int starts_ = 0;                  ///< $START sent in a row without an answer
   Clock::time_point started_at_{};  ///< time of the last $START
   int silences_ = 0;                ///< intervals of silence in a row

@@ -33,6 +33,10 @@ Failure SerialSource::open(std::uint32_t after, std::uint32_t run_id) {
   const Clock::time_point deadline = Clock::now() + settings_.open_timeout;
   const auto answered = [this] { return session_.running() || session_.stopped(); };
   while (!answered() && Clock::now() < deadline) step(deadline);
+  if (!status_.stopped.empty()) {
+    port_->close();
+    return device_failure(fmt::format("{}: {}", name_, status_.stopped));
+  }
   if (answered()) return {};
   const std::string fault = port_->is_open()
                                 ? "the device does not answer $START; switch it on, or correct baud and parity"
@@ -45,7 +49,7 @@ std::size_t SerialSource::poll(std::span<ProbePoint> points, std::chrono::millis
   const std::size_t count =
       session_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
   status_.finished = session_.finished();
-  status_.last = session_.last();
+  if (session_.points().empty()) status_.last = session_.last();
   status_.behind = session_.behind();
   return count;
 }

@@ -22,6 +22,9 @@ class Acknowledgement {
   /// The device does not know yet what is stored.
   [[nodiscard]] bool is_due() const { return stored_ != confirmed_; }
 
+  /// The newest that the device knows to be stored.
+  [[nodiscard]] std::uint32_t known() const { return confirmed_; }
+
   /// What is stored now is on its way to the device.
   [[nodiscard]] std::uint32_t send() { return sending_ = stored_; }
 

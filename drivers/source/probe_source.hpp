@@ -16,7 +16,7 @@ enum class LinkState : std::uint8_t { connecting, up, lost };
 struct SourceStatus {
   LinkState link = LinkState::connecting;
   bool finished = false;   ///< the device said that the program is finished, and every record was delivered or given up
-  std::uint32_t last = 0;  ///< sequence of the newest record that was delivered or given up
+  std::uint32_t last = 0;  ///< every record up to this sequence was handed out or is given up for good
   bool device_fault = false;  ///< the device says that it has a fault
   bool behind = false;        ///< records are known to be there that have not been delivered yet
   std::uint32_t run_id = 0;  ///< of the device; another value means that numbering has restarted; without runs always 0
@@ -26,11 +26,12 @@ struct SourceStatus {
   std::uint64_t resends = 0;  ///< how often records were asked for again
   std::uint64_t reconnects = 0;
   std::uint32_t consecutive_faults = 0;  ///< 0 after any good exchange
-  std::string last_fault;                ///< the newest fault in words; empty = none so far
-  std::uint64_t losses = 0;              ///< how often records were lost in the device, not to be had again
-  std::uint64_t unnumbered_losses = 0;   ///< how many of these have left no jump in the sequence
-  std::string last_loss;                 ///< the newest in words: which records, why, and the fix
-  std::vector<std::string> remarks;      ///< what the user should know though no record is lost; each is told once
+  std::string stopped;  ///< why nothing more will be delivered, with the fix; empty = it goes on. Not for a new run id
+  std::string last_fault;               ///< the newest fault in words; empty = none so far
+  std::uint64_t losses = 0;             ///< how often records were lost in the device, not to be had again
+  std::uint64_t unnumbered_losses = 0;  ///< how many of these have left no jump in the sequence
+  std::string last_loss;                ///< the newest in words: which records, why, and the fix
+  std::vector<std::string> remarks;     ///< what the user should know though no record is lost; each is told once
 };
 
 /// Where probe points come from: a machine or a recording. One thread owns it.

@@ -38,6 +38,13 @@ inline std::string lost_points(std::uint32_t first, std::uint32_t last, const st
   return "points " + std::to_string(first) + ".." + std::to_string(last) + " are lost: " + why + "; probe them again";
 }
 
+/// Publishes that nothing more will be delivered.
+inline void note_stop(SourceStatus& status, const std::string& text) {
+  status.finished = false;
+  status.stopped = text;
+  note_fault(status, text);
+}
+
 /// Publishes a good exchange. The newest fault stays readable.
 inline void note_good(SourceStatus& status) { status.consecutive_faults = 0; }
 

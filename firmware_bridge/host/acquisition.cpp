@@ -5,6 +5,8 @@
 #include <array>
 #include <thread>
 
+#include "firmware_bridge/host/journal/session_settings_file.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -16,9 +18,8 @@ constexpr std::size_t kPollPoints = 64;
 }  // namespace
 
 void Acquisition::run() {
-  replay_recorded();
   SessionEnd end = SessionEnd::stopped;
-  if (!shared_.requests.stop.load() && open_source()) {
+  if (replay_recorded() && !shared_.requests.stop.load() && open_source()) {
     end = SessionEnd::running;
     while (end == SessionEnd::running) {
       follow_commands();
@@ -31,37 +32,44 @@ void Acquisition::run() {
   finish(end);
 }
 
-void Acquisition::replay_recorded() {
-  for (const StreamEvent& event : recorded_.events) {
-    if (event.kind == EventKind::point) last_sequence_ = event.point.sequence;
+bool Acquisition::replay_recorded() {
+  const Failure error = recorded_.for_each([this](const StreamEvent& event) {
+    if (event.kind == EventKind::point || event.kind == EventKind::lost) last_sequence_ = event.point.sequence;
     finish_taken_ = event.kind == EventKind::finished;
     give_to_fit({.event = event});
-  }
-  recorded_.events = {};
+  });
+  if (error) shared_.outcome.fail(error);
   shared_.stored.sequence.store(last_sequence_);
+  return !error;
 }
 
 bool Acquisition::open_source() {
-  if (const Failure failure = source_.open(last_sequence_, recorded_.run_id)) {
+  const JournalSummary& recorded = recorded_.summary();
+  if (const Failure failure = source_.open(last_sequence_, recorded.run_id)) {
     shared_.outcome.fail(failure);
     return false;
   }
   opened_ = true;
   run_id_ = source_.status().run_id;
-  if (!recorded_.exists) {
-    const Failure error = journal_.start(settings_.identity, run_id_);
+  if (!recorded.exists) {
+    const Failure error = begin_session();
     if (error) shared_.outcome.fail(error);
     return !error;
   }
-  if (recorded_.run_id != run_id_) {
+  if (recorded.run_id != run_id_) {
     shared_.outcome.fail(bad_input(
         fmt::format("the device is in run {}, the session folder holds run {}: its points have other numbers; "
                     "name another session folder with --session",
-                    run_id_, recorded_.run_id)));
+                    run_id_, recorded.run_id)));
     return false;
   }
   last_point_ = Clock::now();
   return true;
+}
+
+Failure Acquisition::begin_session() {
+  if (Failure error = journal_.start(settings_.identity, run_id_)) return error;
+  return write_settings(settings_.directory, settings_.settings_text);
 }
 
 void Acquisition::take_points() {
@@ -106,7 +114,7 @@ void Acquisition::follow_commands() {
 void Acquisition::follow_source() {
   const SourceStatus& status = source_.status();
   announce_changes(status);
-  take_loss(status);
+  take_losses(status);
   shared_.link_figures.publish({status.link, status.losses, shared_.requests.pause.load(), status.device_fault});
   if (!status.finished || finish_taken_) return;
   finish_taken_ = true;
@@ -115,8 +123,15 @@ void Acquisition::follow_source() {
   take(finish);
 }
 
-/// Records that had a number are missing in the sequence; the stream is told of the others.
-void Acquisition::take_loss(const SourceStatus& status) {
+/// What is given up is journalled, and so acknowledged: a device whose memory is full of such records waits for that.
+void Acquisition::take_losses(const SourceStatus& status) {
+  if (status.last > last_sequence_) {
+    last_sequence_ = status.last;
+    last_point_ = Clock::now();
+    StreamEvent lost{EventKind::lost, {}};
+    lost.point.sequence = status.last;
+    take(lost);
+  }
   if (status.unnumbered_losses == unnumbered_losses_) return;
   unnumbered_losses_ = status.unnumbered_losses;
   take({EventKind::lost_unnumbered, {}});
@@ -158,6 +173,12 @@ bool Acquisition::run_id_has_changed() {
   return true;
 }
 
+bool Acquisition::source_has_stopped() {
+  const std::string& why = source_.status().stopped;
+  if (!why.empty()) shared_.outcome.fail(device_failure(why));
+  return !why.empty();
+}
+
 /// No point came for the whole idle time, and none could have come: that is no end of a program.
 bool Acquisition::link_is_gone() {
   if (source_.status().link != LinkState::lost) return false;
@@ -169,7 +190,7 @@ bool Acquisition::link_is_gone() {
 }
 
 SessionEnd Acquisition::end_reached() {
-  if (run_id_has_changed() || shared_.outcome.failed()) return SessionEnd::failed;
+  if (run_id_has_changed() || source_has_stopped() || shared_.outcome.failed()) return SessionEnd::failed;
   if (shared_.requests.stop.load()) return SessionEnd::stopped;
   if (settings_.end_when_finished && finish_taken_) return SessionEnd::finished;
   // While records are behind the source asks for them, and in the end gives them up.

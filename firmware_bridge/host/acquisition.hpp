@@ -1,7 +1,8 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
-#include <vector>
+#include <string>
+#include <utility>
 
 #include "firmware_bridge/host/journal/journal.hpp"
 #include "firmware_bridge/host/journal/journal_reader.hpp"
@@ -11,6 +12,8 @@ namespace bladefit {
 
 struct AcquisitionSettings {
   SessionIdentity identity;
+  std::string directory;              ///< of the session
+  std::string settings_text;          ///< written into it when the session begins
   bool end_when_finished = false;     ///< the session ends when the device says that its program is finished
   std::chrono::milliseconds idle{0};  ///< it ends when no new point came for so long; 0 = never
 };
@@ -20,16 +23,17 @@ struct AcquisitionSettings {
 class Acquisition {
  public:
   /// `recorded`: what the journal holds from before; it is given to the fit again, in the same order.
-  Acquisition(const AcquisitionSettings& settings, JournalContent recorded, ProbeSource& source, Journal& journal,
+  Acquisition(AcquisitionSettings settings, const JournalReader& recorded, ProbeSource& source, Journal& journal,
               HostShared& shared)
-      : settings_(settings), recorded_(std::move(recorded)), source_(source), journal_(journal), shared_(shared) {}
+      : settings_(std::move(settings)), recorded_(recorded), source_(source), journal_(journal), shared_(shared) {}
 
   /// Runs until the session ends; then everything taken is on disk, unless the session has failed.
   void run();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void replay_recorded();
+  [[nodiscard]] bool replay_recorded();
+  [[nodiscard]] Failure begin_session();
   [[nodiscard]] bool open_source();
   void take_points();
   void take_point(const ProbePoint& point);
@@ -39,7 +43,8 @@ class Acquisition {
   [[nodiscard]] bool run_id_has_changed();
   [[nodiscard]] bool link_is_gone();
   [[nodiscard]] SessionEnd end_reached();
-  void take_loss(const SourceStatus& status);
+  void take_losses(const SourceStatus& status);
+  [[nodiscard]] bool source_has_stopped();
   [[nodiscard]] bool program_ended(SessionEnd end) const;
   void take(const StreamEvent& event);
   void give_to_fit(const FitInput& input);
@@ -47,7 +52,7 @@ class Acquisition {
   void finish(SessionEnd end);
 
   AcquisitionSettings settings_;
-  JournalContent recorded_;
+  const JournalReader& recorded_;
   ProbeSource& source_;
   Journal& journal_;
   HostShared& shared_;

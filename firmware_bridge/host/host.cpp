@@ -17,6 +17,7 @@
 #include "firmware_bridge/host/journal/journal_writer.hpp"
 #include "firmware_bridge/host/journal/session_file_names.hpp"
 #include "firmware_bridge/host/journal/session_folder.hpp"
+#include "firmware_bridge/host/journal/session_settings_file.hpp"
 #include "firmware_bridge/host/panel/publication.hpp"
 
 namespace bladefit {
@@ -42,21 +43,22 @@ class LocalizerMemory {
   std::size_t size_;
 };
 
-Failure check_identity(const std::string& path, const JournalContent& recorded, const SessionIdentity& wanted) {
+Failure check_identity(const std::string& folder, const JournalSummary& recorded, const SessionIdentity& wanted,
+                       const std::string& settings) {
   if (!recorded.exists) return {};
+  const std::string path = journal_path(folder);
   if (recorded.identity.design_crc != wanted.design_crc) {
     return bad_input(
         fmt::format("{}: the session in this folder was probed against another design; name that "
                     "design, or another folder with --session",
                     path));
   }
-  if (recorded.identity.config_digest != wanted.config_digest) {
-    return bad_input(
-        fmt::format("{}: the session in this folder was started with other fit settings; repeat "
-                    "those, or name another folder with --session",
-                    path));
-  }
-  return {};
+  if (recorded.identity.config_digest == wanted.config_digest) return {};
+  const std::string which = differing_settings(folder, recorded.identity.config_digest, settings);
+  return bad_input(
+      fmt::format("{}: the session in this folder was started with other fit settings{}{}; repeat those, or name "
+                  "another folder with --session",
+                  path, which.empty() ? "" : ": ", which));
 }
 
 }  // namespace
@@ -69,27 +71,30 @@ std::string journal_path(const std::string& session_directory) {
 struct Host::Running {
   SessionFolder folder;  ///< outlives the journal in it
   Journal journal;
+  JournalReader recorded;     ///< of what the journal held before
+  std::string settings_text;  ///< of this session
   PanelServer server;
   std::unique_ptr<LocalizerMemory> memory;
   Localizer* localizer = nullptr;
   std::optional<Acquisition> acquisition;
   std::optional<FitWorker> fit;
   std::optional<Publication> publication;
-  std::vector<std::thread> threads;
+  std::thread panel;
+  std::vector<std::thread> threads;  ///< the others
 
-  [[nodiscard]] Failure open_journal(const HostSettings& settings, const SessionIdentity& identity,
-                                     JournalContent& recorded);
+  [[nodiscard]] Failure open_journal(const HostSettings& settings, const SessionIdentity& identity);
   [[nodiscard]] Failure make_localizer(const LocalizerConfig& config, const DesignImage& design);
 };
 
-Failure Host::Running::open_journal(const HostSettings& settings, const SessionIdentity& identity,
-                                    JournalContent& recorded) {
+Failure Host::Running::open_journal(const HostSettings& settings, const SessionIdentity& identity) {
   if (const Failure error = folder.make(settings.session_directory)) return error;
   const std::string path = journal_path(settings.session_directory);
   if (const Failure error = journal.open(path)) return error;
-  if (const Failure error = read_journal(path, recorded)) return error;
-  if (const Failure error = check_identity(path, recorded, identity)) return error;
-  return recorded.exists ? journal.resume(recorded.events.size()) : Failure{};
+  if (const Failure error = recorded.open(journal.descriptor(), path)) return error;
+  settings_text = bladefit::settings_text(settings.localizer, settings.path_refine_points);
+  const JournalSummary& summary = recorded.summary();
+  if (Failure error = check_identity(settings.session_directory, summary, identity, settings_text)) return error;
+  return summary.exists ? journal.resume(summary.records) : Failure{};
 }
 
 Failure Host::Running::make_localizer(const LocalizerConfig& config, const DesignImage& design) {
@@ -109,10 +114,10 @@ Host::Host(HostSettings settings, const DesignImage& design, ProbeSource& source
 Host::~Host() {
   if (!running_) return;
   request_stop();
-  shared_.panel_closed.store(true);
   for (std::thread& thread : running_->threads) {
     if (thread.joinable()) thread.join();
   }
+  close_panel();
 }
 
 Failure Host::start() {
@@ -120,20 +125,20 @@ Failure Host::start() {
   Running& running = *running_;
   const SessionIdentity identity{design_.header().crc32,
                                  config_digest(settings_.localizer, settings_.path_refine_points)};
-  JournalContent recorded;
   if (const Failure error = running.make_localizer(settings_.localizer, design_)) return error;
-  if (const Failure error = running.open_journal(settings_, identity, recorded)) return error;
+  if (const Failure error = running.open_journal(settings_, identity)) return error;
   if (const Failure error = running.server.open(settings_.panel)) return error;
-  if (recorded.exists) {
+  if (const JournalSummary& recorded = running.recorded.summary(); recorded.exists) {
     shared_.notices.write(
         fmt::format("session resumed: {} events in the journal, {} bytes of an unfinished record cut off",
-                    recorded.events.size(), recorded.torn_bytes));
+                    recorded.records, recorded.torn_bytes));
   }
-  const AcquisitionSettings acquisition{identity, settings_.end_when_finished, settings_.idle};
-  running.acquisition.emplace(acquisition, std::move(recorded), source_, running.journal, shared_);
+  const AcquisitionSettings acquisition{identity, settings_.session_directory, running.settings_text,
+                                        settings_.end_when_finished, settings_.idle};
+  running.acquisition.emplace(acquisition, running.recorded, source_, running.journal, shared_);
   running.fit.emplace(*running.localizer, settings_.localizer.capacity, settings_.path_refine_points, shared_);
   running.publication.emplace(settings_.localizer.tolerance, settings_.axis, running.server, shared_);
-  running.threads.emplace_back([&running] { running.publication->run(); });
+  running.panel = std::thread([&running] { running.publication->run(); });
   running.threads.emplace_back([&running] { running.fit->run(); });
   running.threads.emplace_back([&running, this] { write_journal(running.journal, shared_); });
   running.threads.emplace_back([&running] { running.acquisition->run(); });
@@ -153,9 +158,17 @@ bool Host::wait_for_end(std::chrono::milliseconds timeout) {
 
 void Host::request_stop() { shared_.requests.stop.store(true); }
 
-SessionResult Host::finish() {
+PanelState Host::panel_state() const { return running_->publication->shown(); }
+
+void Host::conclude(const BladeVerdict& verdict) { running_->publication->conclude(verdict); }
+
+void Host::close_panel() {
   shared_.panel_closed.store(true);
   shared_.to_publication.wakeup.signal();
+  if (running_->panel.joinable()) running_->panel.join();
+}
+
+SessionResult Host::finish() {
   for (std::thread& thread : running_->threads) thread.join();
   SessionResult result{.end = shared_.outcome.end(),
                        .error = shared_.outcome.failure(),
@@ -165,16 +178,21 @@ SessionResult Host::finish() {
                        .refused = {},
                        .losses = {},
                        .lost = {}};
-  JournalContent recorded;
-  const Failure unreadable = read_journal(journal_path(settings_.session_directory), recorded);
-  if (unreadable && !result.error) result.error = unreadable;
-  if (result.error) {
-    result.end = SessionEnd::failed;
+  // The open file, whatever has become of its name.
+  JournalReader stored;
+  Failure unreadable = stored.open(running_->journal.descriptor(), journal_path(settings_.session_directory));
+  Localizer& localizer = *running_->localizer;
+  if (result.error || unreadable) {
     // Where the disk failed, points were fitted that the result does not hold.
-    FitStream(*running_->localizer, settings_.path_refine_points).replay(recorded.events);
+    FitStream again(localizer, settings_.path_refine_points);
+    const Failure broken = again.replay([&stored](const auto& follow) { return stored.for_each(follow); });
+    if (!unreadable) unreadable = broken;
   }
-  result.report = running_->localizer->fit();
-  add_points(recorded.events, *running_->localizer, running_->publication->tally(), result);
+  result.report = localizer.fit();
+  const Failure broken = stored.for_each([&](const StreamEvent& event) { add_event(event, localizer, result); });
+  if (!unreadable) unreadable = broken;
+  if (unreadable && !result.error) result.error = unreadable;
+  if (result.error) result.end = SessionEnd::failed;
   if (shared_.outcome.program_ended()) result.losses.finish();
   return result;
 }

@@ -54,8 +54,18 @@ class Host {
   /// Ends the session as if its last point had come. Any thread.
   void request_stop();
 
-  /// Closes the panel and gives what the session came to. Call once, after wait_for_end() was true.
+  /// What the panel shows now: the session's own screen needs no connection. After start().
+  [[nodiscard]] PanelState panel_state() const;
+
+  /// Gives what the session came to, while the panel is still served. Call once, after wait_for_end() was true.
   [[nodiscard]] SessionResult finish();
+
+  /// Shows the verdict of the whole result on the panel; what was found beside the fit is known there alone. After
+  /// finish().
+  void conclude(const BladeVerdict& verdict);
+
+  /// Closes the panel once the clients that ask have seen its last state, after a second at the latest.
+  void close_panel();
 
  private:
   struct Running;

@@ -1,11 +1,9 @@
 #pragma once
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/localizer.hpp"
 #include "drivers/source/failure.hpp"
-#include "firmware_bridge/host/panel/tally.hpp"
 #include "firmware_bridge/host/threads/session_outcome.hpp"
 #include "firmware_bridge/host/threads/stream_event.hpp"
 #include "firmware_bridge/host/threads/stream_losses.hpp"
@@ -24,9 +22,8 @@ struct SessionResult {
   std::vector<SequenceRange> lost;  ///< records that never came, rising
 };
 
-/// Puts the points of `events`, what the journal holds, into `result`, each with its final verdict: that of the fit, or
-/// the last one that came out for a point whose place in the fit was given away. So too what was lost.
-void add_points(std::span<const StreamEvent> events, const Localizer& localizer, const Tally& tally,
-                SessionResult& result);
+/// Puts the next event of the journal into `result`: a point with its final verdict, also where its place in the fit
+/// was given away, or what was lost.
+void add_event(const StreamEvent& event, const Localizer& localizer, SessionResult& result);
 
 }  // namespace bladefit

@@ -13,8 +13,8 @@ struct FinishedFit {
   const FitPlan& plan;
   const std::vector<ProbePoint>& points;
   FitReport report;
-  std::vector<Verdict> verdicts;  ///< final ones, rising sequence
-  std::vector<double> before;     ///< distances at C = I, t = 0 [mm]
+  const std::vector<Verdict>& verdicts;  ///< final ones, rising sequence
+  std::vector<double> before;            ///< distances at C = I, t = 0 [mm]
 };
 
 /// The record of the fit: sums over its points, outliers, and what the mode found. Its name is left empty.

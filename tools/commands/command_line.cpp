@@ -8,6 +8,7 @@
 #include "tools/commands/localize_command.hpp"
 #include "tools/commands/loft_command.hpp"
 #include "tools/commands/panel_command.hpp"
+#include "tools/commands/recover_command.hpp"
 #include "tools/commands/report_command.hpp"
 #include "tools/commands/reproduce_command.hpp"
 #include "tools/commands/run_command.hpp"
@@ -43,6 +44,7 @@ int run_command_line(int argc, char** argv) {
   add_run_command(app, exit_code);
   add_panel_command(app, exit_code);
   add_report_command(app, exit_code);
+  add_recover_command(app, exit_code);
   add_reproduce_command(app, exit_code);
   try {
     app.parse(argc, argv);

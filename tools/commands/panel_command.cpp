@@ -30,7 +30,7 @@ int show_panel(const std::string& address) {
   // The display recovers from later losses by itself: the host may be started again.
   display.turn();
   if (display.failure()) throw ToolError(display.failure());
-  while (!stop.requested()) {
+  while (!stop.requested() && !display.is_cut_off()) {
     display.turn();
     std::this_thread::sleep_for(kPause);
   }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,6 +29,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kTurn{50};
 
+/// A line on standard error, which may be closed.
+void say(const std::string& line) { std::fputs(("bladefit: " + line + "\n").c_str(), stderr); }
+
 /// Lines that the host has for the user. They wait while a screen is shown.
 class Notices {
  public:
@@ -35,7 +40,7 @@ class Notices {
   void add(const std::string& line) {
     const std::lock_guard lock(mutex_);
     if (at_once_) {
-      print(line);
+      say(line);
     } else {
       waiting_.push_back(line);
     }
@@ -43,36 +48,34 @@ class Notices {
 
   void flush() {
     const std::lock_guard lock(mutex_);
-    for (const std::string& line : waiting_) print(line);
+    for (const std::string& line : waiting_) say(line);
     waiting_.clear();
   }
 
  private:
-  static void print(const std::string& line) { fmt::print(stderr, "bladefit: {}\n", line); }
-
   bool at_once_;
   std::mutex mutex_;
   std::vector<std::string> waiting_;
 };
 
-/// Says it and goes on: what was stored before it is still reported on.
-void report(const Failure& failure) { fmt::print(stderr, "bladefit: {}\n", failure.message); }
-
 int exit_code_of(const Failure& failure) { return ToolError(failure).exit_code(); }
 
-/// The panel of this session as this machine reaches it.
-PanelClient own_panel(const PanelServerSettings& settings, std::uint16_t port) {
-  const bool any_address = settings.host == "0.0.0.0" || settings.host == "::";
-  return {any_address ? "localhost" : settings.host, port};
+/// Where others find the panel of this session.
+std::string panel_address(const RunPlan& plan, const Host& host) {
+  return fmt::format("{}:{}", plan.host.panel.host, host.panel_port());
 }
 
-void watch(Host& host, const RunPlan& plan) {
-  const StopFlag stop;
+void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
   std::optional<PanelDisplay> display;
-  if (!plan.headless) display.emplace(own_panel(plan.host.panel, host.panel_port()));
+  if (!plan.headless) {
+    display.emplace(panel_address(plan, host), [&host](PanelState& state) {
+      state = host.panel_state();
+      return Failure{};
+    });
+  }
   while (!host.wait_for_end(kTurn)) {
-    if (stop.requested()) host.request_stop();
     if (display) display->turn();
+    if (stop.requested() || (display && display->is_cut_off())) host.request_stop();
   }
 }
 
@@ -91,9 +94,33 @@ std::string ending(const SessionResult& session) {
   return fmt::format("by a fault; what follows is of the {} points stored before it", session.points.size());
 }
 
-/// Writes what the session came to, also after a fault: then of the points stored before it.
-int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words) {
-  if (session.error) report(session.error);
+/// Tells the end of the session. Returns false where standard output fails; one that nobody reads any more has been
+/// given up by its reader, and is none of our failures.
+bool tell(std::FILE* words, const std::string& text, const RunPlan& plan) {
+  std::clearerr(words);
+  errno = 0;
+  const bool told = std::fputs(text.c_str(), words) >= 0 && std::fflush(words) == 0;
+  if (told) return true;
+  const int reason = errno;
+  say(fmt::format("the summary cannot be written ({}); the result is in {}", std::strerror(reason),
+                  plan.host.session_directory));
+  return reason == EPIPE;
+}
+
+WrittenFiles write_files(const RunPlan& plan, const Result& result) {
+  WrittenFiles files = write_session_files(plan.host.session_directory, result);
+  if (plan.json.empty()) return files;
+  const auto json = [&result](const Put& put) { write_result_json(result, put); };
+  add_written(
+      plan.json, [&] { write_output(plan.json, json, "result"); }, files);
+  return files;
+}
+
+/// Writes what the session came to, also after a fault: then of the points stored before it. Whatever cannot be written
+/// keeps nothing else from it.
+int conclude(const RunPlan& plan, Host& host, std::FILE* words) {
+  const SessionResult session = host.finish();
+  if (session.error) say(session.error.message);
   // A session that was refused is not this run's to report on.
   const bool refused = session.error.kind == Failure::Kind::bad_input;
   if (session.error && (refused || session.points.empty())) return exit_code_of(session.error);
@@ -106,12 +133,24 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
   }
   const Result result = result_of(plan.image, plan.fit, session.points, session.report, session.verdicts, stream,
                                   plan.host.session_directory);
-  const std::vector<std::string> files = write_session_files(plan.host.session_directory, result);
-  if (!plan.json.empty()) write_output(plan.json, result_json(result), "result");
-  fmt::print(words, "Session ended: {}\n{}", ending(session), operator_summary(result));
-  for (const std::string& file : files) fmt::print(words, "Written: {}\n", file);
-  if (!plan.json.empty() && plan.json != "-") fmt::print(words, "Written: {}\n", plan.json);
-  return session.error ? exit_code_of(session.error) : exit_code_of(result);
+  host.conclude({result.verdict.state, result.verdict.codes()});
+  const WrittenFiles files = write_files(plan, result);
+  std::string text = fmt::format("Session ended: {}\n{}", ending(session), operator_summary(result));
+  for (const std::string& path : files.paths) text += path == "-" ? "" : fmt::format("Written: {}\n", path);
+  const bool told = tell(words, text, plan);
+  for (const Failure& failure : files.failures) say(failure.message);
+  host.close_panel();
+  if (session.error) return exit_code_of(session.error);
+  return told && files.failures.empty() ? exit_code_of(result) : kDeviceFailure;
+}
+
+/// Removes what killed runs left of the files of this one. The session is locked: nobody else writes them now.
+std::vector<std::string> stray_parts(const RunPlan& plan) {
+  std::vector<std::string> parts = remove_stray_session_files(plan.host.session_directory);
+  if (plan.json.empty() || plan.json == "-") return parts;
+  const std::vector<std::string> copies = remove_stray_parts(plan.json);
+  parts.insert(parts.end(), copies.begin(), copies.end());
+  return parts;
 }
 
 int run(const RunFlags& flags) {
@@ -120,17 +159,20 @@ int run(const RunFlags& flags) {
   tell_notes(plan.design, words);
   if (!plan.fit.note.empty()) fmt::print(words, "{}", plan.fit.note);
 
+  const StopFlag stop;
   Notices notices(plan.headless);
   const std::unique_ptr<ProbeSource> source = make_source(plan.source);
   Host host(plan.host, plan.image, *source, [&notices](const std::string& line) { notices.add(line); });
   if (const Failure failure = host.start()) throw ToolError(failure);
-  fmt::print(words, "Points from {}, session in {}, panel at {}:{}\n", source_name(plan.source),
-             plan.host.session_directory, plan.host.panel.host, host.panel_port());
+  for (const std::string& part : stray_parts(plan))
+    say(fmt::format("{}: left by a run that was killed; removed", part));
+  const std::string begun = fmt::format("Points from {}, session in {}, panel at {}\n", source_name(plan.source),
+                                        plan.host.session_directory, panel_address(plan, host));
+  std::fputs(begun.c_str(), words);
   std::fflush(words);
-  watch(host, plan);
-  const SessionResult session = host.finish();
+  watch(host, plan, stop);
   notices.flush();
-  return conclude(plan, session, words);
+  return conclude(plan, host, words);
 }
 
 void add_session_options(CLI::App& command, RunFlags& flags) {

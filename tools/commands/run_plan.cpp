@@ -89,6 +89,7 @@ void check_outputs(const RunFlags& flags, const SessionSettings& session, const 
   const std::filesystem::path folder(plan.host.session_directory);
   const std::filesystem::path copy(flags.json == "-" ? "" : flags.json);
   refuse_overwriting(copy, "journal of the session", folder / kJournalFile);
+  refuse_overwriting(copy, "settings of the session", folder / kSettingsFile);
   refuse_overwriting(copy, "verdicts of the session", folder / kVerdictsFile);
   const auto* const replay = std::get_if<ReplaySettings>(&plan.source);
   const std::array<std::pair<const char*, std::string>, 5> inputs{
@@ -99,7 +100,8 @@ void check_outputs(const RunFlags& flags, const SessionSettings& session, const 
        {"recording", replay != nullptr ? replay->file : ""}}};
   for (const auto& [what, input] : inputs) {
     refuse_overwriting(copy, what, input);
-    for (const char* name : {kJournalFile, kVerdictsFile, kResultFile}) refuse_overwriting(folder / name, what, input);
+    for (const char* name : {kJournalFile, kSettingsFile, kVerdictsFile, kResultFile})
+      refuse_overwriting(folder / name, what, input);
   }
 }
 

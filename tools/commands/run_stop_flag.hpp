@@ -1,9 +1,12 @@
 #pragma once
+#include <array>
 #include <csignal>
 
 namespace bladefit {
 
-/// Notes Ctrl-C (SIGINT) and SIGTERM for as long as it lives, instead of dying of them. One at a time.
+/// Notes Ctrl-C (SIGINT), SIGTERM and a terminal that was closed (SIGHUP) for as long as it lives, instead of dying of
+/// them; an output that nobody reads any more (SIGPIPE) or that has its largest size (SIGXFSZ) is an error of that
+/// output alone. One at a time.
 class StopFlag {
  public:
   StopFlag();
@@ -14,8 +17,7 @@ class StopFlag {
   [[nodiscard]] bool requested() const;
 
  private:
-  struct sigaction interrupt_before_ = {};
-  struct sigaction terminate_before_ = {};
+  std::array<struct sigaction, 5> before_{};
 };
 
 }  // namespace bladefit

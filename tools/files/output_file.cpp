@@ -2,13 +2,16 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
-#include <cstring>
+#include <optional>
 #include <system_error>
 
+#include "drivers/text/text_number.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -40,25 +43,66 @@ std::filesystem::path place_of(const std::filesystem::path& path) {
                   ToolError::Kind::device);
 }
 
-/// Writes and syncs all of `content`; returns 0 or the error of the operating system.
-int write_all(int descriptor, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    content.remove_prefix(static_cast<std::size_t>(written));
+constexpr const char* kPartial = ".partial-";
+constexpr std::size_t kBlock = std::size_t{1} << 16U;
+
+/// Writes a descriptor block by block and keeps the first error.
+class BlockWriter {
+ public:
+  explicit BlockWriter(int descriptor) : descriptor_(descriptor) { block_.reserve(kBlock); }
+
+  void put(std::string_view piece) {
+    block_ += piece;
+    if (block_.size() >= kBlock) flush();
   }
-  return ::fsync(descriptor) == 0 ? 0 : errno;
+
+  /// Writes what is left and syncs; returns 0 or the error of the operating system.
+  [[nodiscard]] int finish() {
+    flush();
+    if (error_ == 0 && ::fsync(descriptor_) != 0) error_ = errno;
+    return error_;
+  }
+
+ private:
+  void flush() {
+    std::string_view left = block_;
+    while (!left.empty() && error_ == 0) {
+      const ssize_t written = ::write(descriptor_, left.data(), left.size());
+      if (written >= 0) {
+        left.remove_prefix(static_cast<std::size_t>(written));
+      } else if (errno != EINTR) {
+        error_ = errno;
+      }
+    }
+    block_.clear();
+  }
+
+  int descriptor_, error_ = 0;
+  std::string block_;
+};
+
+/// The process that began a part of `name`; nothing where `file` is no such part.
+std::optional<pid_t> writer_of(const std::string& file, const std::string& name) {
+  const std::string begin = name + kPartial;
+  if (!file.starts_with(begin)) return std::nullopt;
+  return parse_whole<pid_t>(std::string_view(file).substr(begin.size()));
 }
+
+bool lives(pid_t process) { return process != ::getpid() && (::kill(process, 0) == 0 || errno == EPERM); }
 
 }  // namespace
 
-OutputFile::OutputFile(const std::filesystem::path& path, std::string_view content) : path_(resolve(path)) {
+OutputFile::OutputFile(const std::filesystem::path& path, std::string_view content)
+    : OutputFile(path, [content](const Put& put) { put(content); }) {}
+
+OutputFile::OutputFile(const std::filesystem::path& path, const TextWriter& write) : path_(resolve(path)) {
   temporary_ = path_;
-  temporary_ += fmt::format(".partial-{}", ::getpid());
+  temporary_ += fmt::format("{}{}", kPartial, ::getpid());
   const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(path_, errno);
-  const int error = write_all(descriptor, content);
+  BlockWriter block(descriptor);
+  write([&block](std::string_view piece) { block.put(piece); });
+  const int error = block.finish();
   const int close_error = ::close(descriptor) == 0 ? 0 : errno;
   if (error == 0 && close_error == 0) return;
   ::unlink(temporary_.c_str());
@@ -75,14 +119,34 @@ void OutputFile::commit() {
 }
 
 void write_output(const std::string& path, std::string_view content, std::string_view what) {
+  write_output(
+      path, [content](const Put& put) { put(content); }, what);
+}
+
+void write_output(const std::string& path, const TextWriter& write, std::string_view what) {
   if (path != "-") {
-    OutputFile(path, content).commit();
+    OutputFile(path, write).commit();
     return;
   }
-  const bool written = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
+  bool written = true;
+  write([&written](std::string_view piece) {
+    written = written && std::fwrite(piece.data(), 1, piece.size(), stdout) == piece.size();
+  });
   if (!written || std::fflush(stdout) != 0) {
     throw ToolError(fmt::format("standard output: cannot write the {}", what), ToolError::Kind::device);
   }
+}
+
+std::vector<std::string> remove_stray_parts(const std::filesystem::path& path) {
+  std::vector<std::string> removed;
+  std::error_code error;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::optional<pid_t> writer = writer_of(entry.path().filename().string(), path.filename().string());
+    if (!writer || lives(*writer) || !std::filesystem::remove(entry.path(), error)) continue;
+    removed.push_back(entry.path().string());
+  }
+  return removed;
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {

@@ -1,9 +1,16 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace bladefit {
+
+/// Takes the next piece of a text.
+using Put = std::function<void(std::string_view piece)>;
+/// Gives a text piece by piece, so that it need not be in memory as a whole.
+using TextWriter = std::function<void(const Put& put)>;
 
 /// A file that comes to stand under its name only as a whole: the content is written beside it under another name and
 /// moved in place by commit(). Without commit() nothing is left behind.
@@ -12,6 +19,7 @@ class OutputFile {
   /// Writes `content`. Throws ToolError (device) where that fails, and bad_input where `path` is something else
   /// than a regular file or a new name.
   OutputFile(const std::filesystem::path& path, std::string_view content);
+  OutputFile(const std::filesystem::path& path, const TextWriter& write);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -25,7 +33,12 @@ class OutputFile {
 
 /// Writes `content` to the file `path`, as a whole or not at all, or to standard output where that is "-"; `what` says
 /// in messages what it is. Throws ToolError as OutputFile does.
+void write_output(const std::string& path, const TextWriter& write, std::string_view what);
 void write_output(const std::string& path, std::string_view content, std::string_view what);
+
+/// Removes what killed processes left of `path` before it was complete, and returns the names. Files of processes that
+/// live stay.
+std::vector<std::string> remove_stray_parts(const std::filesystem::path& path);
 
 /// True where both name the same place, whether something stands there or not. Empty names are no place.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);

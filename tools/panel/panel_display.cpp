@@ -1,11 +1,11 @@
 #include "tools/panel/panel_display.hpp"
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 namespace bladefit {
 namespace {
@@ -37,8 +37,14 @@ bool colour_is_wanted() {
 
 }  // namespace
 
-PanelDisplay::PanelDisplay(PanelClient client) : client_(std::move(client)), terminal_(isatty(STDOUT_FILENO) == 1) {
-  view_.address = client_.address();
+PanelDisplay::PanelDisplay(PanelClient client)
+    : PanelDisplay(client.address(), [shared = std::make_shared<PanelClient>(std::move(client))](PanelState& state) {
+        return shared->read(state);
+      }) {}
+
+PanelDisplay::PanelDisplay(std::string address, ReadPanel read)
+    : read_(std::move(read)), terminal_(isatty(STDOUT_FILENO) == 1) {
+  view_.address = std::move(address);
   view_.colour = terminal_ && colour_is_wanted();
 }
 
@@ -48,11 +54,13 @@ PanelDisplay::~PanelDisplay() {
   std::fflush(stdout);
 }
 
+bool PanelDisplay::is_cut_off() const { return std::ferror(stdout) != 0; }
+
 void PanelDisplay::turn() {
   const Clock::time_point now = Clock::now();
   if (now - last_turn_ < kTurn) return;
   last_turn_ = now;
-  failure_ = client_.read(view_.state);
+  failure_ = read_(view_.state);
   view_.connected = !failure_;
   if (view_.connected) {
     view_.known = true;
@@ -94,7 +102,7 @@ void PanelDisplay::show_screen() {
 void PanelDisplay::show_line(Clock::time_point now) {
   if (now - last_line_ < kLineEvery) return;
   last_line_ = now;
-  fmt::print("{}\n", status_line(view_));
+  std::fputs((status_line(view_) + "\n").c_str(), stdout);
   std::fflush(stdout);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <chrono>
 #include <deque>
+#include <functional>
+#include <string>
 #include <utility>
 
 #include "tools/panel/panel_client.hpp"
@@ -13,6 +15,10 @@ namespace bladefit {
 class PanelDisplay {
  public:
   explicit PanelDisplay(PanelClient client);
+
+  /// Shows what `read` gives; `address` is where others find it.
+  using ReadPanel = std::function<Failure(PanelState& state)>;
+  PanelDisplay(std::string address, ReadPanel read);
   ~PanelDisplay();
   PanelDisplay(const PanelDisplay&) = delete;
   PanelDisplay& operator=(const PanelDisplay&) = delete;
@@ -20,6 +26,9 @@ class PanelDisplay {
   /// Reads the panel and shows what it says, or that it does not answer. Does nothing when the last turn was less
   /// than a fifth of a second ago.
   void turn();
+
+  /// Nobody takes the output any more: the terminal or the reader of a pipe is gone.
+  [[nodiscard]] bool is_cut_off() const;
 
   /// Why the last turn that read the panel could not.
   [[nodiscard]] const Failure& failure() const { return failure_; }
@@ -30,7 +39,7 @@ class PanelDisplay {
   void show_screen();
   void show_line(Clock::time_point now);
 
-  PanelClient client_;
+  ReadPanel read_;
   ScreenView view_;
   bool terminal_;
   bool screen_taken_ = false;

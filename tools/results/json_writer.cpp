@@ -110,31 +110,47 @@ Json verdict_json(const ResultVerdict& verdict) {
           {"coverage_factor", verdict.coverage_factor}};
 }
 
-Json points_json(const std::vector<ResultPoint>& points, double mm_per_unit) {
-  Json list = Json::array();
-  for (const ResultPoint& point : points) {
-    list.push_back({{"index", point.sequence - 1},
-                    {"patch", point.patch},
-                    {"u", point.u},
-                    {"v", point.v},
-                    {"kind", word_of(point.kind)},
-                    {"region", word_of(point.region)},
-                    {"distance", length_or_null(point.distance, mm_per_unit)},
-                    {"distance_before", length_or_null(point.before, mm_per_unit)},
-                    {"tolerance", length_or_null(point.tolerance, mm_per_unit)},
-                    {"uncertainty", point.uncertainty / mm_per_unit},
-                    {"expanded_uncertainty", point.expanded / mm_per_unit},
-                    {"state", word_of(point.state)},
-                    {"action", word_of(point.action)},
-                    {"left_out", word_of(point.left_out)},
-                    {"beyond", point.beyond / mm_per_unit}});
-  }
-  return list;
+Json point_json(const ResultPoint& point, double mm_per_unit) {
+  return {{"index", point.sequence - 1},
+          {"patch", point.patch},
+          {"u", point.u},
+          {"v", point.v},
+          {"kind", word_of(point.kind)},
+          {"region", word_of(point.region)},
+          {"distance", length_or_null(point.distance, mm_per_unit)},
+          {"distance_before", length_or_null(point.before, mm_per_unit)},
+          {"tolerance", length_or_null(point.tolerance, mm_per_unit)},
+          {"uncertainty", point.uncertainty / mm_per_unit},
+          {"expanded_uncertainty", point.expanded / mm_per_unit},
+          {"state", word_of(point.state)},
+          {"action", word_of(point.action)},
+          {"left_out", word_of(point.left_out)},
+          {"beyond", point.beyond / mm_per_unit}};
 }
 
-}  // namespace
+/// A value as it stands `depth` levels below the top.
+std::string indented(const Json& json, std::size_t depth) {
+  const std::string text = json.dump(1);
+  std::string out;
+  for (const char character : text) {
+    out += character;
+    if (character == '\n') out.append(depth, ' ');
+  }
+  return out;
+}
 
-std::string result_json(const Result& result) {
+/// The list that ends the object, in the layout of dump(1).
+void write_points(const std::vector<ResultPoint>& points, double mm_per_unit, const Put& put) {
+  put(",\n \"points\": [");
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    put(k == 0 ? "\n  " : ",\n  ");
+    put(indented(point_json(points[k], mm_per_unit), 2));
+  }
+  put(points.empty() ? "]\n}\n" : "\n ]\n}\n");
+}
+
+/// Everything but the points.
+Json head_json(const Result& result) {
   const double unit = result.mm_per_unit;
   Json json;
   json["verdict"] = verdict_json(result.verdict);
@@ -162,8 +178,22 @@ std::string result_json(const Result& result) {
   json["aberrant"] = outliers_json(result.outliers, unit);  // the key that readers of result.json know
   json["robust"] = robust_json(result.judged_otherwise);
   json["notes"] = result.notes;
-  json["points"] = points_json(result.points, unit);
-  return json.dump(1) + "\n";
+  return json;
+}
+
+}  // namespace
+
+std::string result_json(const Result& result) {
+  std::string text;
+  write_result_json(result, [&text](std::string_view piece) { text += piece; });
+  return text;
+}
+
+void write_result_json(const Result& result, const Put& put) {
+  std::string head = head_json(result).dump(1);
+  head.erase(head.size() - 2);  // the line end and bracket that close the object
+  put(head);
+  write_points(result.points, result.mm_per_unit, put);
 }
 
 }  // namespace bladefit

@@ -98,15 +98,35 @@ void check_up_to_date(const std::string& directory, const JournalContent& journa
 
 }  // namespace
 
-std::vector<std::string> write_session_files(const std::string& directory, const Result& result) {
+void add_written(const std::string& path, const std::function<void()>& write, WrittenFiles& files) {
+  try {
+    write();
+    files.paths.push_back(path);
+  } catch (const ToolError& error) {
+    files.failures.push_back({error.kind(), error.what()});
+  }
+}
+
+WrittenFiles write_session_files(const std::string& directory, const Result& result) {
   const fs::path folder(directory);
-  const std::string verdicts_path = folder / kVerdictsFile;
-  const std::string result_path = folder / kResultFile;
-  OutputFile verdicts_file(verdicts_path, verdicts_csv(result.points));
-  OutputFile result_file(result_path, result_json(result));
-  verdicts_file.commit();
-  result_file.commit();
-  return {result_path, verdicts_path};
+  const auto write = [&folder](const char* name, const TextWriter& text) { OutputFile(folder / name, text).commit(); };
+  WrittenFiles files;
+  add_written(
+      folder / kResultFile, [&] { write(kResultFile, [&result](const Put& put) { write_result_json(result, put); }); },
+      files);
+  add_written(
+      folder / kVerdictsFile,
+      [&] { write(kVerdictsFile, [&result](const Put& put) { write_verdicts_csv(result.points, put); }); }, files);
+  return files;
+}
+
+std::vector<std::string> remove_stray_session_files(const std::string& directory) {
+  std::vector<std::string> removed;
+  for (const char* const name : {kResultFile, kVerdictsFile}) {
+    const std::vector<std::string> parts = remove_stray_parts(fs::path(directory) / name);
+    removed.insert(removed.end(), parts.begin(), parts.end());
+  }
+  return removed;
 }
 
 Result read_session(const std::string& directory) {

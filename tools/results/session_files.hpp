@@ -1,14 +1,28 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "drivers/source/failure.hpp"
 #include "tools/results/result.hpp"
 
 namespace bladefit {
 
-/// Writes verdicts.csv and result.json into the session folder, each as a whole or not at all, and returns their paths.
-/// Throws ToolError (device).
-std::vector<std::string> write_session_files(const std::string& directory, const Result& result);
+/// What became of files that were to be written.
+struct WrittenFiles {
+  std::vector<std::string> paths;  ///< of those that were
+  std::vector<Failure> failures;   ///< a line each of those that were not
+};
+
+/// Writes verdicts.csv and result.json into the session folder, each as a whole or not at all, and whatever becomes of
+/// the other.
+[[nodiscard]] WrittenFiles write_session_files(const std::string& directory, const Result& result);
+
+/// Adds `path` to the files, or why `write` could not write it.
+void add_written(const std::string& path, const std::function<void()>& write, WrittenFiles& files);
+
+/// Removes what killed runs left of a session's files, and returns the names.
+[[nodiscard]] std::vector<std::string> remove_stray_session_files(const std::string& directory);
 
 /// Reads result.json and verdicts.csv of a session folder and checks that they are whole, belong together and tell of
 /// every point in the journal. Throws ToolError (bad_input) that names the file and the fix, also where the session

@@ -120,15 +120,20 @@ ResultPoint point_of(const Row& row) {
 }  // namespace
 
 std::string verdicts_csv(const std::vector<ResultPoint>& points) {
-  std::string text = fmt::format("{}\n", fmt::join(kColumns, ","));
-  for (const ResultPoint& point : points) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u,
-                        point.v, word_of(point.kind), word_of(point.region), point.distance, point.tolerance,
-                        point.uncertainty, word_of(point.state), word_of(point.action), point.position[0],
-                        point.position[1], point.position[2], point.expanded, point.before, word_of(point.left_out),
-                        point.beyond);
-  }
+  std::string text;
+  write_verdicts_csv(points, [&text](std::string_view piece) { text += piece; });
   return text;
+}
+
+void write_verdicts_csv(const std::vector<ResultPoint>& points, const Put& put) {
+  put(fmt::format("{}\n", fmt::join(kColumns, ",")));
+  for (const ResultPoint& point : points) {
+    put(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u,
+                    point.v, word_of(point.kind), word_of(point.region), point.distance, point.tolerance,
+                    point.uncertainty, word_of(point.state), word_of(point.action), point.position[0],
+                    point.position[1], point.position[2], point.expanded, point.before, word_of(point.left_out),
+                    point.beyond));
+  }
 }
 
 std::vector<ResultPoint> parse_verdicts(const std::string& path, std::string_view text) {

@@ -6,13 +6,6 @@ namespace {
 constexpr std::uint32_t kSettlePoints = 4096;
 constexpr int kMostSettleCalls = 20000;
 
-/// Of a fit that nobody watches.
-struct NoObserver {
-  void judged(const Verdict& /*verdict*/) const {}
-  void settled() const {}
-  void forgotten() const {}
-};
-
 }  // namespace
 
 bool FitStream::push(const ProbePoint& point, Verdict& verdict) {
@@ -54,12 +47,6 @@ void FitStream::reset() {
   path_ = 0;
   path_ended_ = false;
   settled_ = true;
-}
-
-void FitStream::replay(std::span<const StreamEvent> events) {
-  reset();
-  for (const StreamEvent& event : events) follow(event, NoObserver());
-  settle();
 }
 
 }  // namespace bladefit

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <span>
 
 #include "core/localizer.hpp"
 #include "firmware_bridge/host/threads/stream_event.hpp"
@@ -49,16 +48,30 @@ class FitStream {
         reset();
         return observer.forgotten();
       case EventKind::lost_unnumbered:
+      case EventKind::lost:
         return;
     }
   }
 
-  /// The fit of exactly these events, settled.
-  void replay(std::span<const StreamEvent> events);
+  /// The fit of exactly the events that `events(take)` gives to `take`, settled. Returns what `events` does.
+  template <typename Events>
+  auto replay(Events&& events) {
+    reset();
+    auto outcome = events([this](const StreamEvent& event) { follow(event, NoObserver()); });
+    settle();
+    return outcome;
+  }
 
   [[nodiscard]] Localizer& localizer() { return localizer_; }
 
  private:
+  /// Of a fit that nobody watches.
+  struct NoObserver {
+    void judged(const Verdict& /*verdict*/) const {}
+    void settled() const {}
+    void forgotten() const {}
+  };
+
   Localizer& localizer_;
   std::uint32_t path_refine_points_;
   std::uint16_t path_ = 0;  // 0 = unknown

@@ -1,5 +1,7 @@
 #include "firmware_bridge/host/fit/fit_worker.hpp"
 
+#include <algorithm>
+
 namespace bladefit {
 namespace {
 
@@ -40,10 +42,23 @@ void FitWorker::take(const StreamEvent& event) {
 
 void FitWorker::judged(const Verdict& verdict) {
   latency_.add(std::chrono::nanoseconds(Clock::now() - taken_at_).count());
-  const bool stored = verdict.state != PointState::rejected && stored_sequences_.size() < stored_sequences_.capacity();
-  if (stored) stored_sequences_.push_back(verdict.sequence);
-  publish({false, verdict});
+  const bool stored = keep_place(verdict.sequence);
+  publish({stored ? FitOutput::Kind::judged : FitOutput::Kind::judged_last, verdict});
   shared_.to_publication.wakeup.signal();
+}
+
+/// Follows the places in the fit: the new point may have taken one, also that of another point. False: it has none.
+bool FitWorker::keep_place(std::uint32_t sequence) {
+  Verdict verdict;
+  if (stream_.localizer().verdict_of(sequence, verdict) != Status::ok) return false;
+  verdict.sequence = stream_.localizer().displaced();
+  const auto place = std::ranges::lower_bound(stored_sequences_, verdict.sequence);
+  if (verdict.sequence != 0 && place != stored_sequences_.end() && *place == verdict.sequence) {
+    stored_sequences_.erase(place);
+    publish({FitOutput::Kind::given_up, verdict});
+  }
+  stored_sequences_.push_back(sequence);
+  return true;
 }
 
 // A revision comes out when the state or the action changes. Now that the pose has come to rest the distances are
@@ -57,11 +72,11 @@ void FitWorker::settled() {
 void FitWorker::forgotten() {
   stored_sequences_.clear();
   alarms_.clear();
-  publish({true, {}});
+  publish({FitOutput::Kind::forgotten, {}});
 }
 
 void FitWorker::publish(const FitOutput& output) {
-  alarms_.note(output.verdict);
+  if (output.kind == FitOutput::Kind::judged) alarms_.note(output.verdict);
   while (!shared_.to_publication.ring.push(output)) {
     shared_.to_publication.wakeup.signal();
     shared_.to_fit.wakeup.wait(kRoomWait);
@@ -81,7 +96,8 @@ void FitWorker::publish_revisions() {
 void FitWorker::report_again(std::span<const std::uint32_t> sequences) {
   Verdict verdict;
   for (const std::uint32_t sequence : sequences) {
-    if (sequence != 0 && stream_.localizer().verdict_of(sequence, verdict) == Status::ok) publish({false, verdict});
+    if (sequence != 0 && stream_.localizer().verdict_of(sequence, verdict) == Status::ok)
+      publish({FitOutput::Kind::judged, verdict});
   }
 }
 

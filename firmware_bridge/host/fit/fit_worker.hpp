@@ -33,6 +33,7 @@ class FitWorker {
   void forgotten();
 
   void take(const StreamEvent& event);
+  [[nodiscard]] bool keep_place(std::uint32_t sequence);
   void publish(const FitOutput& output);
   void publish_revisions();
   void publish_figures();
@@ -42,7 +43,7 @@ class FitWorker {
   StreamLosses losses_;
   HostShared& shared_;
   LatencyHistogram latency_;
-  std::vector<std::uint32_t> stored_sequences_;  ///< never grows beyond what was reserved
+  std::vector<std::uint32_t> stored_sequences_;  ///< rising; never grows beyond what was reserved
   RecentAlarms alarms_;
   std::uint32_t events_since_figures_ = 0;
   Clock::time_point taken_at_{};  ///< when the event under way came out of the ring

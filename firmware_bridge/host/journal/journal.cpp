@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -72,7 +73,7 @@ Failure Journal::start(const SessionIdentity& identity, std::uint32_t run_id) {
   return {};
 }
 
-Failure Journal::resume(std::size_t records) {
+Failure Journal::resume(std::uint64_t records) {
   records_ = static_cast<std::uint32_t>(records);
   if (const Failure error = cut_to(sizeof(JournalHeader) + records * sizeof(JournalRecord))) return error;
   if (fdatasync(descriptor_) != 0) return failure("cannot be synchronised");
@@ -80,6 +81,7 @@ Failure Journal::resume(std::size_t records) {
 }
 
 Failure Journal::append(std::span<const StreamEvent> events) {
+  if (events.empty()) return {};
   std::array<JournalRecord, kJournalGroup> group;
   const std::size_t count = std::min(events.size(), kJournalGroup);
   for (std::size_t index = 0; index < count; ++index) {
@@ -88,6 +90,16 @@ Failure Journal::append(std::span<const StreamEvent> events) {
   if (const Failure error = write_at_end(std::as_bytes(std::span(group).first(count)))) return error;
   records_ += static_cast<std::uint32_t>(count);
   return {};
+}
+
+Failure Journal::check_link() const {
+  struct stat status = {};
+  if (fstat(descriptor_, &status) != 0) return failure("can no longer be looked at");
+  if (status.st_nlink > 0) return {};
+  return device_failure(
+      fmt::format("{}: was removed during the session; nothing more is acknowledged, and the device still holds what "
+                  "was not: start again with another session folder",
+                  path_));
 }
 
 Failure Journal::write_at_end(std::span<const std::byte> bytes) {

@@ -28,12 +28,19 @@ class Journal {
   /// Starts the file again with a header, on disk when this returns.
   [[nodiscard]] Failure start(const SessionIdentity& identity, std::uint32_t run_id);
 
-  /// Goes on after the `records` whole records that read_journal() found; whatever follows them is cut off.
-  [[nodiscard]] Failure resume(std::size_t records);
+  /// Goes on after the `records` whole records that a JournalReader found; whatever follows them is cut off.
+  [[nodiscard]] Failure resume(std::uint64_t records);
 
   /// Appends up to kJournalGroup events; they are on disk when this returns without error. After an error the file
   /// ends where it ended before.
   [[nodiscard]] Failure append(std::span<const StreamEvent> events);
+
+  /// `device`: the file was removed from its folder. What it holds can be read as long as it is open, and is gone then:
+  /// nothing in it may be acknowledged any more.
+  [[nodiscard]] Failure check_link() const;
+
+  /// The open file.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
 
  private:
   [[nodiscard]] Failure write_at_end(std::span<const std::byte> bytes);

@@ -10,7 +10,7 @@ std::uint32_t crc_before(const Block& block, std::size_t crc_offset, std::uint32
   return crc32(std::as_bytes(std::span(&block, 1)).first(crc_offset), seed);
 }
 
-bool kind_is_known(EventKind kind) { return kind >= EventKind::point && kind <= EventKind::lost_unnumbered; }
+bool kind_is_known(EventKind kind) { return kind >= EventKind::point && kind <= EventKind::lost; }
 
 }  // namespace
 

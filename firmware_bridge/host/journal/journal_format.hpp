@@ -11,8 +11,8 @@ namespace bladefit {
 
 /// Journal of a session, little endian: one JournalHeader, then JournalRecords to the end of the file.
 inline constexpr std::array<char, 8> kJournalMagic = {'B', 'F', 'J', 'R', 'N', 'L', '\r', '\n'};
-/// Version 5: it tells of points that were lost, and its digest holds the rule of decision.
-inline constexpr std::uint32_t kJournalVersion = 5;
+/// Version 6: a record of the device that is given up is told at once, and not by the point after it alone.
+inline constexpr std::uint32_t kJournalVersion = 6;
 
 /// What a session is bound to: its points mean something for this design and these settings only.
 struct SessionIdentity {

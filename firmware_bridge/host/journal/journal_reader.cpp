@@ -1,91 +1,94 @@
 #include "firmware_bridge/host/journal/journal_reader.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <span>
+
+#include "firmware_bridge/host/journal/journal_file.hpp"
 
 namespace bladefit {
-namespace {
 
-Failure read_bytes(const std::string& path, std::vector<std::byte>& bytes) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file && errno == ENOENT) return {};
-  if (file) {
-    bytes.resize(static_cast<std::size_t>(file.tellg()));
-    file.seekg(0);
-    file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  }
-  if (file) return {};
-  return device_failure(fmt::format("{}: cannot be read ({}); check the disk and the rights of the folder", path,
-                                    std::strerror(errno != 0 ? errno : EIO)));
+JournalReader::~JournalReader() {
+  if (owned_) close(descriptor_);
 }
 
-Failure check_header(const std::string& path, const JournalHeader& header) {
-  if (header.magic != kJournalMagic) {
-    return bad_input(fmt::format("{}: is no journal of a session; name another session folder", path));
-  }
-  if (header.version != kJournalVersion) {
-    const char* why = header.version < kJournalVersion ? ", which does not tell of lost points" : "";
-    return bad_input(
-        fmt::format("{}: journal of format version {}{}; this program reads version {}: use the program that wrote it, "
-                    "or name another "
-                    "session folder",
-                    path, header.version, why, kJournalVersion));
-  }
+Failure JournalReader::open(const std::string& path) {
+  path_ = path;
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  owned_ = descriptor_ >= 0;
+  if (!owned_) return errno == ENOENT ? Failure{} : unreadable_journal(path);
+  return check();
+}
+
+Failure JournalReader::open(int descriptor, const std::string& path) {
+  path_ = path;
+  descriptor_ = descriptor;
+  return check();
+}
+
+Failure JournalReader::check() {
+  JournalHeader header;
+  const auto size = read_at(descriptor_, std::as_writable_bytes(std::span(&header, 1)), 0);
+  if (!size) return unreadable_journal(path_);
+  // The header is on disk before the first point is asked for: a shorter file holds nothing that was acknowledged.
+  if (*size < sizeof header) return {};
+  if (Failure error = check_journal_kind(path_, header)) return error;
   if (!header_is_whole(header)) {
     return bad_input(
-        fmt::format("{}: the header is damaged; copy the file from a backup, or name another "
-                    "session folder",
-                    path));
+        fmt::format("{}: the header is damaged; copy the file from a backup, save its points with "
+                    "`bladefit recover`, or name another session folder",
+                    path_));
   }
+  summary_ = {.exists = true, .identity = {header.design_crc, header.config_digest}, .run_id = header.run_id};
+  std::uint32_t bad = 0, last = 0;
+  bool torn = true;
+  const bool read = visit_records(descriptor_, [&](const JournalRecord& record, std::uint32_t place) {
+    const bool whole = record_is_whole(record, place);
+    last = place;
+    if (bad == 0 && !whole) bad = place;
+    // A group is begun when the one before it is on disk.
+    torn = bad == 0 || !whole || record.group <= bad;
+    return torn;
+  });
+  if (!read) return unreadable_journal(path_);
+  if (!torn) {
+    return bad_input(
+        fmt::format("{}: record {} is damaged although later ones are whole, so this is no torn end; "
+                    "nothing was changed: copy the file from a backup, save what is whole with `bladefit "
+                    "recover`, or name another session folder",
+                    path_, bad));
+  }
+  summary_.records = bad == 0 ? last : bad - 1;
+  struct stat status = {};
+  if (fstat(descriptor_, &status) != 0) return unreadable_journal(path_);
+  const std::uint64_t whole_bytes = sizeof header + summary_.records * sizeof(JournalRecord);
+  summary_.torn_bytes = static_cast<std::uint64_t>(status.st_size) - whole_bytes;
   return {};
 }
 
-JournalRecord record_at(std::span<const std::byte> records, std::size_t index) {
-  JournalRecord record;
-  std::memcpy(&record, records.data() + index * sizeof record, sizeof record);
-  return record;
+Failure JournalReader::for_each(const std::function<void(const StreamEvent&)>& visit) const {
+  if (!summary_.exists) return {};
+  std::uint64_t given = 0;
+  const bool read = visit_records(descriptor_, [&](const JournalRecord& record, std::uint32_t place) {
+    if (place > summary_.records || !record_is_whole(record, place)) return false;
+    visit(event_of(record));
+    ++given;
+    return true;
+  });
+  if (read && given == summary_.records) return {};
+  return unreadable_journal(path_);
 }
-
-std::uint32_t place_of(std::size_t index) { return static_cast<std::uint32_t>(index + 1); }
-
-}  // namespace
 
 Failure read_journal(const std::string& path, JournalContent& content) {
   content = {};
-  std::vector<std::byte> bytes;
-  if (const Failure error = read_bytes(path, bytes)) return error;
-  JournalHeader header;
-  // The header is on disk before the first point is asked for: a shorter file holds nothing that was acknowledged.
-  if (bytes.size() < sizeof header) return {};
-  std::memcpy(&header, bytes.data(), sizeof header);
-  if (const Failure error = check_header(path, header)) return error;
-  content.exists = true;
-  content.identity = {header.design_crc, header.config_digest};
-  content.run_id = header.run_id;
-
-  const std::span<const std::byte> records = std::span(bytes).subspan(sizeof header);
-  const std::size_t count = records.size() / sizeof(JournalRecord);
-  std::size_t whole = 0;
-  while (whole < count && record_is_whole(record_at(records, whole), place_of(whole))) ++whole;
-  for (std::size_t later = whole + 1; later < count; ++later) {
-    const JournalRecord record = record_at(records, later);
-    // A group is begun when the one before it is on disk.
-    if (!record_is_whole(record, place_of(later)) || record.group <= place_of(whole)) continue;
-    return bad_input(
-        fmt::format("{}: record {} is damaged although records that were stored after it are "
-                    "whole, so this is no torn end; nothing was changed: copy the file from a "
-                    "backup, or name another session folder",
-                    path, place_of(whole)));
-  }
-  content.events.reserve(whole);
-  for (std::size_t index = 0; index < whole; ++index) content.events.push_back(event_of(record_at(records, index)));
-  content.torn_bytes = records.size() - whole * sizeof(JournalRecord);
-  return {};
+  JournalReader reader;
+  if (Failure error = reader.open(path)) return error;
+  static_cast<JournalSummary&>(content) = reader.summary();
+  content.events.reserve(content.records);
+  return reader.for_each([&content](const StreamEvent& event) { content.events.push_back(event); });
 }
 
 }  // namespace bladefit

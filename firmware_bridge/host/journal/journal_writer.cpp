@@ -17,7 +17,7 @@ void take_group(Ring<StreamEvent>& ring, Group& group) {
   group.count = 0;
   while (group.count < kJournalGroup && ring.pop(group.events[group.count])) {
     const StreamEvent& event = group.events[group.count++];
-    if (event.kind == EventKind::point) group.last_sequence = event.point.sequence;
+    if (event.kind == EventKind::point || event.kind == EventKind::lost) group.last_sequence = event.point.sequence;
   }
 }
 
@@ -28,14 +28,16 @@ void write_journal(Journal& journal, HostShared& shared) {
   while (true) {
     const bool closed = shared.journal_closed.load();
     take_group(shared.to_journal.ring, group);
-    if (group.count == 0) {
-      if (closed) return;
-      shared.to_journal.wakeup.wait(kFlushWait);
-      continue;
-    }
-    if (const Failure error = journal.append(std::span(group.events).first(group.count))) {
+    if (group.count == 0 && closed) return;
+    Failure error = journal.append(std::span(group.events).first(group.count));
+    if (!error) error = journal.check_link();
+    if (error) {
       shared.outcome.fail(error);
       return;
+    }
+    if (group.count == 0) {
+      shared.to_journal.wakeup.wait(kFlushWait);
+      continue;
     }
     if (group.last_sequence != 0) shared.stored.sequence.store(group.last_sequence);
     shared.stored.events.fetch_add(group.count);

@@ -24,8 +24,9 @@ constexpr std::size_t kUnitOffset = 6;
 constexpr std::uint8_t kRefusedFlag = 0x80;
 constexpr std::uint8_t kNoSuchUnit = 11;
 constexpr int kAnswersPerTurn = 8;
-constexpr std::chrono::seconds kSilentLongEnough{5};
-constexpr int kBacklog = 16;
+constexpr std::chrono::milliseconds kTurn{2};
+constexpr std::chrono::seconds kAsksNowAndThen{2};
+constexpr int kBacklog = 64;
 
 std::string numeric_address(const sockaddr_storage& address, socklen_t size) {
   std::array<char, NI_MAXHOST> text{};
@@ -84,6 +85,9 @@ Failure PanelServer::open(const PanelServerSettings& settings) {
 }
 
 void PanelServer::wait(int wakeup_descriptor, std::chrono::milliseconds timeout) {
+  pollfd wakeup{wakeup_descriptor, POLLIN, 0};
+  const auto pause = std::chrono::ceil<std::chrono::milliseconds>(next_turn_ - Clock::now());
+  if (pause.count() > 0 && poll(&wakeup, 1, static_cast<int>(pause.count())) != 0) return;
   std::array<pollfd, kMostClients + 2> watched{};
   watched[0] = {wakeup_descriptor, POLLIN, 0};
   watched[1] = {listener_, POLLIN, 0};
@@ -102,12 +106,20 @@ void PanelServer::wait(int wakeup_descriptor, std::chrono::milliseconds timeout)
 
 void PanelServer::serve(const PanelImage& image, const std::function<void(const PanelCommands&)>& on_commands) {
   std::erase_if(clients_, [&](Client& client) {
+    if (client.readable || client.writable) next_turn_ = Clock::now() + kTurn;
     const bool stays = serve_client(client, image, on_commands);
     if (!stays) close(client.descriptor);
     return !stays;
   });
   if (connection_waiting_) accept_clients();
   connection_waiting_ = false;
+}
+
+bool PanelServer::has_told_all(Clock::time_point since) const {
+  return std::ranges::none_of(clients_, [since](const Client& client) {
+    const bool waits = client.last_request < since || !client.unsent.empty();
+    return client.asks && waits && since - client.last_request < kAsksNowAndThen;
+  });
 }
 
 void PanelServer::accept_clients() {
@@ -117,33 +129,44 @@ void PanelServer::accept_clients() {
     const int descriptor =
         accept4(listener_, reinterpret_cast<sockaddr*>(&address), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (descriptor < 0) return;
-    if (is_allowed(numeric_address(address, size)) && make_room()) {
-      add_client(descriptor);
+    std::string name = numeric_address(address, size);
+    if (is_allowed(name)) {
+      make_room(name);
+      add_client(descriptor, std::move(name));
     } else {
       close(descriptor);
     }
   }
 }
 
-void PanelServer::add_client(int descriptor) {
+void PanelServer::add_client(int descriptor, std::string address) {
   const int on = 1;
   // Answers are small and wanted at once; a failure here only costs time.
   [[maybe_unused]] const int result = setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-  clients_.push_back({.descriptor = descriptor, .received = {}, .unsent = {}, .last_request = Clock::now()});
+  clients_.push_back({.descriptor = descriptor,
+                      .address = std::move(address),
+                      .received = {},
+                      .unsent = {},
+                      .last_request = Clock::now()});
 }
 
 bool PanelServer::is_allowed(const std::string& address) const {
   return settings_.allow.empty() || std::ranges::find(settings_.allow, address) != settings_.allow.end();
 }
 
-// Clients that went away without a word must not lock the operator out: the longest silent one makes room.
-bool PanelServer::make_room() {
-  if (clients_.size() < kMostClients) return true;
-  const auto longest = std::ranges::min_element(clients_, {}, &Client::last_request);
-  if (Clock::now() - longest->last_request < kSilentLongEnough) return false;
+// Clients that went away without a word, or are polite but many, must not lock the operator out: the one that has been
+// silent for longest makes room, of the same address where that has its share.
+void PanelServer::make_room(const std::string& address) {
+  const auto of_address = [&address](const Client& client) { return client.address == address; };
+  const bool has_its_share = static_cast<std::size_t>(std::ranges::count_if(clients_, of_address)) >= kMostOfAnAddress;
+  if (!has_its_share && clients_.size() < kMostClients) return;
+  auto longest = clients_.end();
+  for (auto client = clients_.begin(); client != clients_.end(); ++client) {
+    if (has_its_share && !of_address(*client)) continue;
+    if (longest == clients_.end() || client->last_request < longest->last_request) longest = client;
+  }
   close(longest->descriptor);
   clients_.erase(longest);
-  return true;
 }
 
 bool PanelServer::serve_client(Client& client, const PanelImage& image,
@@ -181,6 +204,7 @@ bool PanelServer::answer(Client& client, const PanelImage& image,
     client.unsent.push_back(header[kUnitOffset]);
     client.unsent.insert(client.unsent.end(), pdu.begin(), pdu.end());
     client.last_request = Clock::now();
+    client.asks = true;
     on_commands(commands);
     used += size;
   }

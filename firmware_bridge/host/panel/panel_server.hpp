@@ -22,7 +22,8 @@ struct PanelServerSettings {
 /// host. One thread owns it.
 class PanelServer {
  public:
-  static constexpr std::size_t kMostClients = 16;
+  static constexpr std::size_t kMostClients = 128;
+  static constexpr std::size_t kMostOfAnAddress = 64;  ///< so that one machine cannot lock out the others
 
   PanelServer() = default;
   ~PanelServer();
@@ -35,25 +36,31 @@ class PanelServer {
   /// The port listened at.
   [[nodiscard]] std::uint16_t port() const { return port_; }
 
-  /// Waits until a client wants something, `wakeup_descriptor` becomes readable, or `timeout` is over.
+  /// Waits until a client wants something, `wakeup_descriptor` becomes readable, or `timeout` is over. Clients wait for
+  /// kTurn after those before them were served: however many ask without a pause, they leave the processor to others.
   void wait(int wakeup_descriptor, std::chrono::milliseconds timeout);
 
   /// Serves, from the image, what wait() found. Each client gets a few answers a call, however many it asks for.
   void serve(const PanelImage& image, const std::function<void(const PanelCommands&)>& on_commands);
 
+  /// Whether every client that asks now and then has had an answer since `since`.
+  [[nodiscard]] bool has_told_all(std::chrono::steady_clock::time_point since) const;
+
  private:
   using Clock = std::chrono::steady_clock;
   struct Client {
     int descriptor = -1;
+    std::string address;
     std::vector<std::uint8_t> received;
     std::vector<std::uint8_t> unsent;
-    Clock::time_point last_request;
+    Clock::time_point last_request;  ///< or, before the first one, when it came
+    bool asks = false;               ///< it has asked
     bool readable = false, writable = false;
   };
 
   void accept_clients();
-  void add_client(int descriptor);
-  [[nodiscard]] bool make_room();
+  void add_client(int descriptor, std::string address);
+  void make_room(const std::string& address);
   [[nodiscard]] bool is_allowed(const std::string& address) const;
   [[nodiscard]] bool serve_client(Client& client, const PanelImage& image,
                                   const std::function<void(const PanelCommands&)>& on_commands) const;
@@ -64,6 +71,7 @@ class PanelServer {
   std::uint16_t port_ = 0;
   int listener_ = -1;
   bool connection_waiting_ = false;
+  Clock::time_point next_turn_{};  ///< of clients
   std::vector<Client> clients_;
 };
 

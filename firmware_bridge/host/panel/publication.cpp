@@ -7,6 +7,7 @@ namespace bladefit {
 namespace {
 
 constexpr std::chrono::milliseconds kLongestWait{100};
+constexpr std::chrono::seconds kLongestLinger{1};
 
 float to_float(double value) { return static_cast<float>(value); }
 
@@ -31,28 +32,73 @@ void Publication::run() {
   while (true) {
     const bool last_turn = shared_.panel_closed.load() && shared_.fit_done.load();
     shared_.to_publication.wakeup.clear();
-    take_news();
-    update_state();
-    server_.serve(encode_panel(state_), on_commands);
-    if (last_turn) return;
+    if (take_news() || last_turn || pressed_ || Clock::now() - updated_ >= kLongestWait) show();
+    server_.serve(image_, on_commands);
+    if (last_turn) return linger();
     server_.wait(shared_.to_publication.wakeup.descriptor(), kLongestWait);
   }
 }
 
-void Publication::take_news() {
+/// Clients that ask now and then are to see the end.
+void Publication::linger() {
+  const Clock::time_point end = Clock::now();
+  while (!server_.has_told_all(end) && Clock::now() < end + kLongestLinger) {
+    server_.wait(shared_.to_publication.wakeup.descriptor(), kLongestWait);
+    server_.serve(image_, [](const PanelCommands&) {});
+    shared_.to_publication.wakeup.clear();
+  }
+}
+
+void Publication::show() {
+  pressed_ = false;
+  updated_ = Clock::now();
+  const std::lock_guard lock(common_.mutex);
+  update_state();
+  common_.shown = state_;
+  common_.shown.has_extension = true;
+  image_ = encode_panel(state_);
+}
+
+PanelState Publication::shown() {
+  const std::lock_guard lock(common_.mutex);
+  return common_.shown;
+}
+
+void Publication::conclude(const BladeVerdict& verdict) {
+  const std::lock_guard lock(common_.mutex);
+  common_.concluded = verdict;
+}
+
+/// True where there were any.
+bool Publication::take_news() {
+  bool any = false;
   FitOutput output;
   while (shared_.to_publication.ring.pop(output)) {
-    if (output.forget) {
-      tally_.clear();
-      last_sequence_ = 0;
-      continue;
-    }
-    tally_.accept(output.verdict);
-    last_sequence_ = std::max(last_sequence_, output.verdict.sequence);
+    take(output);
+    any = true;
   }
   // Figures are taken after the verdicts: they are never older than those.
-  [[maybe_unused]] const bool newer_fit = shared_.fit_figures.take(figures_);
-  [[maybe_unused]] const bool newer_link = shared_.link_figures.take(link_);
+  const bool newer_fit = shared_.fit_figures.take(figures_);
+  const bool newer_link = shared_.link_figures.take(link_);
+  return any || newer_fit || newer_link;
+}
+
+void Publication::take(const FitOutput& output) {
+  const Verdict& verdict = output.verdict;
+  switch (output.kind) {
+    case FitOutput::Kind::forgotten:
+      tally_.clear();
+      last_ = {};
+      return;
+    case FitOutput::Kind::given_up:
+      return tally_.give_up(verdict.sequence);
+    case FitOutput::Kind::judged:
+    case FitOutput::Kind::judged_last:
+      break;
+  }
+  tally_.accept(verdict);
+  if (verdict.sequence >= last_.sequence) last_ = verdict;
+  if (output.kind == FitOutput::Kind::judged_last) tally_.give_up(verdict.sequence);
 }
 
 void Publication::update_state() {
@@ -104,7 +150,7 @@ void Publication::update_fit() {
 void Publication::update_verdict() {
   const FitReport& report = figures_.report;
   const TallyCounts& counts = tally_.counts();
-  const BladeVerdict verdict =
+  const BladeVerdict counted =
       judge_blade({.converged = report.status == FitStatus::converged,
                    .infeasible = report.status == FitStatus::infeasible,
                    .determined = report.determined,
@@ -119,6 +165,7 @@ void Publication::update_verdict() {
                    .zones_missed = tally_.zones().missed(),
                    .finished = figures_.losses.finished(),
                    .doubts = {}});
+  const BladeVerdict verdict = common_.concluded.value_or(counted);
   state_.verdict = verdict.state;
   state_.reasons = reason_bits(verdict.reasons);
   if (link_.link == LinkState::lost) state_.reasons |= kReasonLinkLost;
@@ -126,22 +173,18 @@ void Publication::update_verdict() {
 }
 
 void Publication::update_last() {
-  const Verdict* const last = tally_.find(last_sequence_);
-  const Verdict verdict = last != nullptr ? *last : Verdict{};
-  state_.last_sequence = verdict.sequence;
-  state_.last_distance = to_float(verdict.foot.distance);
-  state_.last_state = verdict.state;
-  state_.last_action = verdict.action;
-  state_.last_region = verdict.region;
+  state_.last_sequence = last_.sequence;
+  state_.last_distance = to_float(last_.foot.distance);
+  state_.last_state = last_.state;
+  state_.last_action = last_.action;
+  state_.last_region = last_.region;
 }
 
 void Publication::update_places() {
   state_.newest.fill({});
-  const auto out = tally_.leading_edge_out();
-  const std::size_t count = std::min(out.size(), kPanelPlaces);
-  for (std::size_t place = 0; place < count; ++place) {
-    const Verdict* const verdict = tally_.find(out[out.size() - 1 - place]);
-    if (verdict != nullptr) state_.newest[place] = place_of(*verdict, axis_);
+  const std::vector<Verdict> out = tally_.newest_leading_edge_out();
+  for (std::size_t place = 0; place < std::min(out.size(), kPanelPlaces); ++place) {
+    state_.newest[place] = place_of(out[place], axis_);
   }
 }
 
@@ -155,24 +198,25 @@ SessionState Publication::session_state() {
 
 std::uint16_t Publication::alarms() const {
   const FitReport& report = figures_.report;
-  const bool seen = tally_.times_out() == acknowledged_times_out_;
+  const bool seen = tally_.times_out() == acknowledged_.times_out;
   unsigned bits = 0;
   if (state_.leading_edge_out > 0 && !seen) bits |= kAlarmLeadingEdgeOut;
   if (state_.rest_out > 0 && !seen) bits |= kAlarmRestOut;
   if (link_.link == LinkState::lost) bits |= kAlarmLinkLost;
-  if (link_.losses != acknowledged_losses_) bits |= kAlarmDataGap;
+  if (link_.losses != acknowledged_.losses) bits |= kAlarmDataGap;
   if (report.memory_full) bits |= kAlarmMemoryFull;
   if (report.status == FitStatus::infeasible) bits |= kAlarmInfeasible;
   return static_cast<std::uint16_t>(bits);
 }
 
 void Publication::follow(const PanelCommands& commands) {
+  pressed_ = pressed_ || commands.start || commands.stop || commands.reset || commands.acknowledge;
   if (commands.start) shared_.requests.pause.store(false);
   if (commands.stop) shared_.requests.pause.store(true);
   if (commands.reset) shared_.requests.reset.store(true);
   if (!commands.acknowledge) return;
-  acknowledged_times_out_ = tally_.times_out();
-  acknowledged_losses_ = link_.losses;
+  acknowledged_.times_out = tally_.times_out();
+  acknowledged_.losses = link_.losses;
 }
 
 }  // namespace bladefit

@@ -1,5 +1,7 @@
 #pragma once
 #include <chrono>
+#include <mutex>
+#include <optional>
 
 #include "core/inspection/shaft_axis.hpp"
 #include "core/inspection/tolerance_map.hpp"
@@ -15,15 +17,23 @@ class Publication {
  public:
   Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, PanelServer& server, HostShared& shared);
 
-  /// Runs until HostShared::panel_closed is set and the fit is done.
+  /// Runs until HostShared::panel_closed is set and the fit is done; then, up to a second longer, until the clients
+  /// that ask have seen the last state.
   void run();
 
-  /// The newest verdicts; once run() has returned.
-  [[nodiscard]] const Tally& tally() const { return tally_; }
+  /// What the panel shows now. Any thread.
+  [[nodiscard]] PanelState shown();
+
+  /// The verdict on the blade when the session has ended, with what was found against its fit elsewhere: it stands
+  /// instead of that which follows from counts and fit. Any thread.
+  void conclude(const BladeVerdict& verdict);
 
  private:
   using Clock = std::chrono::steady_clock;
-  void take_news();
+  [[nodiscard]] bool take_news();
+  void show();
+  void linger();
+  void take(const FitOutput& output);
   void update_state();
   void update_counts();
   void update_fit();
@@ -42,9 +52,20 @@ class Publication {
   FitFigures figures_;
   LinkFigures link_;
   PanelState state_;
-  std::uint32_t last_sequence_ = 0;
-  std::uint64_t acknowledged_times_out_ = 0;
-  std::uint64_t acknowledged_losses_ = 0;
+  Verdict last_;  ///< of the newest point
+  /// Counts when the operator acknowledged the alarms last.
+  struct Acknowledged {
+    std::uint64_t times_out = 0, losses = 0;
+  } acknowledged_;
+  bool pressed_ = false;  ///< a command came since the last update
+  Clock::time_point updated_{};
+  PanelImage image_;
+  /// What other threads read or write.
+  struct Shared {
+    std::mutex mutex;
+    PanelState shown;
+    std::optional<BladeVerdict> concluded;
+  } common_;
   Clock::time_point start_ = Clock::now();
 };
 

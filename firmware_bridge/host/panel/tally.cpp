@@ -9,24 +9,43 @@ namespace {
 bool is_out(const Verdict& verdict) { return verdict.state == PointState::out; }
 bool is_leading_edge_out(const Verdict& verdict) { return is_out(verdict) && verdict.region == Region::leading_edge; }
 
+/// Pending points take part in the farthest of a region where asked for.
+bool takes_part(const Verdict& verdict, Region region, bool with_pending) {
+  if (verdict.region != region || verdict.state == PointState::rejected) return false;
+  return with_pending || verdict.state != PointState::pending;
+}
+
+bool is_farther(const Verdict& verdict, const std::optional<Verdict>& other) {
+  return !other || std::abs(verdict.foot.distance) > std::abs(other->foot.distance);
+}
+
 }  // namespace
 
 void Tally::accept(const Verdict& verdict) {
-  auto place = verdicts_.end();
-  if (!verdicts_.empty() && verdicts_.back().sequence >= verdict.sequence) {
-    place = std::ranges::lower_bound(verdicts_, verdict.sequence, {}, &Verdict::sequence);
-  }
-  Verdict before;
-  if (place != verdicts_.end() && place->sequence == verdict.sequence) {
-    before = *place;
-    count(before, static_cast<std::uint32_t>(-1));
-    *place = verdict;
-  } else {
-    verdicts_.insert(place, verdict);
-  }
+  const auto [place, first] = verdicts_.try_emplace(verdict.sequence);
+  const Verdict before = place->second;
+  if (!first) count(before, static_cast<std::uint32_t>(-1));
+  place->second = verdict;
   count(verdict, 1);
   if (is_out(verdict) && !is_out(before)) ++times_out_;
   follow_leading_edge(verdict.sequence, is_leading_edge_out(before), is_leading_edge_out(verdict));
+  follow_worst(verdict);
+}
+
+void Tally::give_up(std::uint32_t sequence) {
+  const auto place = verdicts_.find(sequence);
+  if (place == verdicts_.end()) return;
+  const Verdict verdict = place->second;
+  verdicts_.erase(place);
+  for (const bool with_pending : {false, true}) {
+    Worst& worst = worst_of(verdict.region, with_pending);
+    if (takes_part(verdict, verdict.region, with_pending) && is_farther(verdict, worst.given_up))
+      worst.given_up = verdict;
+  }
+  if (!is_leading_edge_out(verdict)) return;
+  std::erase(leading_edge_out_, sequence);
+  given_up_out_.push_back(verdict);
+  if (given_up_out_.size() > kNewest) given_up_out_.pop_front();
 }
 
 // `sign` is +1 or -1 modulo 2^32.
@@ -56,26 +75,57 @@ void Tally::follow_leading_edge(std::uint32_t sequence, bool was_out, bool is_ou
   }
 }
 
-const Verdict* Tally::worst(Region region, bool with_pending) const {
-  const Verdict* worst = nullptr;
-  for (const Verdict& verdict : verdicts_) {
-    if (verdict.region != region || verdict.state == PointState::rejected) continue;
-    if (verdict.state == PointState::pending && !with_pending) continue;
-    if (worst == nullptr || std::abs(verdict.foot.distance) > std::abs(worst->foot.distance)) worst = &verdict;
+/// Keeps the farthest points, unless the farthest itself has come nearer.
+void Tally::follow_worst(const Verdict& verdict) {
+  for (const Region region : {Region::rest, Region::leading_edge}) {
+    for (const bool with_pending : {false, true}) {
+      Worst& worst = worst_of(region, with_pending);
+      const bool takes = takes_part(verdict, region, with_pending);
+      const bool was_it = worst.verdict && worst.verdict->sequence == verdict.sequence;
+      if (was_it && (!takes || is_farther(*worst.verdict, verdict))) {
+        worst.stale = true;
+      } else if (takes && (was_it || is_farther(verdict, worst.verdict))) {
+        worst.verdict = verdict;
+      }
+    }
   }
-  return worst;
+}
+
+const Verdict* Tally::worst(Region region, bool with_pending) const {
+  Worst& worst = worst_of(region, with_pending);
+  if (worst.stale) {
+    worst.verdict = worst.given_up;
+    for (const Verdict& verdict : verdicts()) {
+      if (takes_part(verdict, region, with_pending) && is_farther(verdict, worst.verdict)) worst.verdict = verdict;
+    }
+    worst.stale = false;
+  }
+  return worst.verdict ? &*worst.verdict : nullptr;
+}
+
+std::vector<Verdict> Tally::newest_leading_edge_out() const {
+  std::vector<Verdict> newest;
+  for (auto sequence = leading_edge_out_.rbegin(); sequence != leading_edge_out_.rend() && newest.size() < kNewest;
+       ++sequence) {
+    newest.push_back(*find(*sequence));
+  }
+  for (auto verdict = given_up_out_.rbegin(); verdict != given_up_out_.rend() && newest.size() < kNewest; ++verdict)
+    newest.push_back(*verdict);
+  return newest;
 }
 
 void Tally::clear() {
   verdicts_.clear();
   leading_edge_out_.clear();
+  given_up_out_.clear();
+  worst_ = {};
   counts_ = {};
   zones_.clear();
 }
 
 const Verdict* Tally::find(std::uint32_t sequence) const {
-  const auto place = std::ranges::lower_bound(verdicts_, sequence, {}, &Verdict::sequence);
-  return place != verdicts_.end() && place->sequence == sequence ? &*place : nullptr;
+  const auto place = verdicts_.find(sequence);
+  return place != verdicts_.end() ? &place->second : nullptr;
 }
 
 }  // namespace bladefit

@@ -1,6 +1,10 @@
 #pragma once
+#include <array>
 #include <cstdint>
-#include <span>
+#include <deque>
+#include <map>
+#include <optional>
+#include <ranges>
 #include <vector>
 
 #include "core/inspection/blade_verdict.hpp"
@@ -18,14 +22,17 @@ struct TallyCounts {
   std::uint32_t pending = 0, undecided = 0;  ///< of those that have a tolerance
 };
 
-/// The newest verdict of every point, and what follows from them. Grows with the session: it belongs to the
-/// publication thread, which may allocate.
+/// The newest verdict of every point whose verdict may still change, and what follows from those of all. Grows up to
+/// the points that have a place in the fit: it belongs to the publication thread, which may allocate.
 class Tally {
  public:
   explicit Tally(const ToleranceMap& tolerance) : zones_(tolerance) {}
 
-  /// Takes a first verdict or a revision. Cost: constant for rising sequence numbers, else a binary search.
+  /// Takes a first verdict or a revision. Cost: logarithmic.
   void accept(const Verdict& verdict);
+
+  /// No revision of this point will come: it is counted as it is. Nothing where the sequence is unknown.
+  void give_up(std::uint32_t sequence);
 
   /// Forgets every point.
   void clear();
@@ -35,17 +42,19 @@ class Tally {
   [[nodiscard]] const ZoneCount& zones() const { return zones_; }
 
   /// The point of a region that is farthest off, by the same verdicts as the counts; null where there is none. Pending
-  /// points, whose distances are old while the pose moves, take part where asked for. Cost: linear.
+  /// points, whose distances are old while the pose moves, take part where asked for. Cost: constant, but linear where
+  /// the farthest one has come nearer.
   [[nodiscard]] const Verdict* worst(Region region, bool with_pending) const;
 
-  /// Verdicts in rising order of sequence.
-  [[nodiscard]] std::span<const Verdict> verdicts() const { return verdicts_; }
+  /// Verdicts that may change, in rising order of sequence.
+  [[nodiscard]] auto verdicts() const { return std::views::values(verdicts_); }
 
-  /// Null when the sequence is unknown.
+  /// Null when the sequence is unknown, or given up.
   [[nodiscard]] const Verdict* find(std::uint32_t sequence) const;
 
-  /// Sequences of the leading-edge points that are out, in the order in which they became so.
-  [[nodiscard]] std::span<const std::uint32_t> leading_edge_out() const { return leading_edge_out_; }
+  /// The leading-edge points that are out and became so last, newest first, kNewest at most.
+  [[nodiscard]] std::vector<Verdict> newest_leading_edge_out() const;
+  static constexpr std::size_t kNewest = 8;
 
   /// How often a point has become out of tolerance so far, in any region.
   [[nodiscard]] std::uint64_t times_out() const { return times_out_; }
@@ -53,9 +62,22 @@ class Tally {
  private:
   void count(const Verdict& verdict, std::uint32_t sign);
   void follow_leading_edge(std::uint32_t sequence, bool was_out, bool is_out);
+  void follow_worst(const Verdict& verdict);
 
-  std::vector<Verdict> verdicts_;
-  std::vector<std::uint32_t> leading_edge_out_;
+  /// The farthest point of a region so far, with or without pending ones.
+  struct Worst {
+    std::optional<Verdict> verdict;
+    std::optional<Verdict> given_up;  ///< of those given up
+    bool stale = false;               ///< the farthest has come nearer: others are to be looked at again
+  };
+  [[nodiscard]] Worst& worst_of(Region region, bool with_pending) const {
+    return worst_[static_cast<std::size_t>(region)][with_pending ? 1 : 0];
+  }
+
+  std::map<std::uint32_t, Verdict> verdicts_;
+  std::vector<std::uint32_t> leading_edge_out_;  ///< in the order in which they became so
+  std::deque<Verdict> given_up_out_;             ///< of these, the newest that were given up
+  mutable std::array<std::array<Worst, 2>, 2> worst_{};
   TallyCounts counts_;
   ZoneCount zones_;
   std::uint64_t times_out_ = 0;

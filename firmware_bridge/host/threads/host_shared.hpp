@@ -27,8 +27,14 @@ struct FitInput {
 
 /// From the fit thread to the publication thread.
 struct FitOutput {
-  bool forget = false;  ///< all points so far are forgotten; `verdict` means nothing
-  Verdict verdict;      ///< a first one or a revision
+  enum class Kind : std::uint8_t {
+    judged,       ///< `verdict` is a first one or a revision
+    judged_last,  ///< the same, and no revision of it will come: the point has no place in the fit
+    given_up,     ///< no revision will come of the point with the sequence of `verdict`, whose rest means nothing
+    forgotten,    ///< all points so far are forgotten; `verdict` means nothing
+  };
+  Kind kind = Kind::judged;
+  Verdict verdict;
 };
 
 /// What the fit thread reports of the whole fit.

@@ -3,7 +3,7 @@
 namespace bladefit {
 
 std::optional<SequenceRange> StreamLosses::take(const StreamEvent& event) {
-  const std::uint32_t sequence = event.point.sequence;
+  const std::uint64_t sequence = event.point.sequence;
   switch (event.kind) {
     case EventKind::point: {
       finished_ = false;
@@ -13,6 +13,8 @@ std::optional<SequenceRange> StreamLosses::take(const StreamEvent& event) {
     }
     case EventKind::finished:
       finished_ = true;
+      return advance(sequence + 1);
+    case EventKind::lost:
       return advance(sequence + 1);
     case EventKind::reset:
       records_ = 0;
@@ -26,10 +28,10 @@ std::optional<SequenceRange> StreamLosses::take(const StreamEvent& event) {
 }
 
 /// The records before `next` that have not come are lost.
-std::optional<SequenceRange> StreamLosses::advance(std::uint32_t next) {
+std::optional<SequenceRange> StreamLosses::advance(std::uint64_t next) {
   if (next <= next_) return std::nullopt;
-  const SequenceRange lost{next_, next - 1};
-  records_ += next - next_;
+  const SequenceRange lost{static_cast<std::uint32_t>(next_), static_cast<std::uint32_t>(next - 1)};
+  records_ += static_cast<std::uint32_t>(next - next_);
   next_ = next;
   return lost;
 }

@@ -30,9 +30,10 @@ class StreamLosses {
   [[nodiscard]] bool finished() const { return finished_; }
 
  private:
-  std::optional<SequenceRange> advance(std::uint32_t next);
+  std::optional<SequenceRange> advance(std::uint64_t next);
 
-  std::uint32_t next_ = 1, records_ = 0;
+  std::uint64_t next_ = 1;
+  std::uint32_t records_ = 0;
   bool unnumbered_ = false, finished_ = false;
 };
 

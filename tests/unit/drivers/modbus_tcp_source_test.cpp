@@ -41,6 +41,28 @@ TEST(ModbusTcp, GoesOnBehindWhatIsStored) {
   EXPECT_EQ(collect_checked(*source, 2), counted(8, 9));
 }
 
+TEST(ModbusTcp, ADeviceThatNumbersAnewIsToldOfNoRecordBeyondItsOwn) {
+  TcpMachine machine;
+  machine.registers.probe(8);
+  const auto source = make_source(machine.settings());
+  ASSERT_EQ(source->open(0, 0).message, "");
+  EXPECT_EQ(collect_checked(*source, 8), counted(1, 8));
+  machine.registers.set(3, 3);
+  EXPECT_EQ(collect(*source, 1, milliseconds(100)), Sequences{});
+  EXPECT_NE(source->status().stopped.find("newest record is 3 although record 8 was read before"), std::string::npos)
+      << source->status().last_fault;
+  source->acknowledge(8);
+  EXPECT_EQ(collect(*source, 1, milliseconds(50)), Sequences{});
+  source->close();
+  EXPECT_EQ(machine.registers.holding(1), 0);
+
+  const auto resumed = make_source(machine.settings());
+  const Failure refused = resumed->open(8, 5);
+  EXPECT_EQ(refused.kind, Failure::Kind::device);
+  EXPECT_NE(refused.message.find("start a session in another folder"), std::string::npos) << refused.message;
+  EXPECT_EQ(machine.registers.holding(1), 0);
+}
+
 TEST(ModbusTcp, SurvivesEveryMischief) {
   TcpMachine machine;
   const auto source = make_source(machine.settings());

@@ -69,6 +69,19 @@ TEST(RecordOrder, AnEndIsNoEndWhenMoreComes) {
   EXPECT_FALSE(order.end_at(0)) << "older than what is here";
 }
 
+TEST(RecordOrder, EndsWithTheLastNumberThereIs) {
+  constexpr std::uint32_t kLast = 0xFFFFFFFFU;
+  RecordOrder order;
+  order.restart(kLast - 2);
+  EXPECT_EQ(order.take(record(kLast)), Place::ahead);
+  EXPECT_EQ(order.take(record(kLast - 1)), Place::delivered);
+  EXPECT_EQ(taken(order), (std::vector<std::uint32_t>{kLast - 1, kLast}));
+  EXPECT_FALSE(order.behind());
+  ASSERT_TRUE(order.end_at(kLast));
+  EXPECT_TRUE(order.complete());
+  EXPECT_EQ(order.take(record(1)), Place::old);
+}
+
 TEST(ResendRequest, AsksForTheSameRecordLessOftenThanForAnother) {
   SerialSettings settings;
   settings.resend_tries = 2;

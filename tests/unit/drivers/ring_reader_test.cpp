@@ -27,7 +27,8 @@ struct Bench {
     std::vector<std::uint16_t> words(std::size_t{batch.count} * 20);
     for (std::uint16_t index = 0; index < batch.count; ++index) {
       const std::span<std::uint16_t> record(words.data() + index * 20, 20);
-      record[1] = static_cast<std::uint16_t>(batch.sequence + index);
+      record[0] = static_cast<std::uint16_t>((batch.sequence + index) >> 16U);
+      record[1] = static_cast<std::uint16_t>((batch.sequence + index) & 0xFFFFU);
       record[19] = crc16(std::span<const std::uint16_t>(record.first(19)));
       if (batch.sequence + index == bad) ++record[19];
     }
@@ -79,6 +80,7 @@ TEST(RingReader, ReadsADamagedRecordAgainBeforeItCounts) {
   bench.show(4);
   EXPECT_FALSE(bench.read(3));
   EXPECT_EQ(bench.take(), (Sequences{1, 2}));
+  EXPECT_TRUE(bench.status.behind);
   EXPECT_EQ(bench.status.damaged, 0U);
   EXPECT_EQ(bench.status.resends, 1U);
   EXPECT_FALSE(bench.read(3));
@@ -86,6 +88,7 @@ TEST(RingReader, ReadsADamagedRecordAgainBeforeItCounts) {
   EXPECT_EQ(bench.status.consecutive_faults, 1U);
   EXPECT_TRUE(bench.read());
   EXPECT_EQ(bench.take(), (Sequences{3, 4}));
+  EXPECT_FALSE(bench.status.behind);
   EXPECT_EQ(bench.status.consecutive_faults, 0U);
 }
 
@@ -125,8 +128,74 @@ TEST(RingReader, GoesBackWhenTheDeviceHasOverstated) {
   bench.show(1000);
   EXPECT_EQ(bench.status.losses, 1U);
   for (int look = 0; look < 3; ++look) bench.show(5);
+  EXPECT_EQ(bench.status.last, 3U) << "that is not given up for good";
   EXPECT_TRUE(bench.read());
   EXPECT_EQ(bench.take(), (Sequences{4, 5}));
+}
+
+TEST(RingReader, GivesUpForGoodWhatTheDeviceStillKnowsOf) {
+  Bench bench;
+  bench.settings.record_tries = 3;
+  bench.show(8);
+  for (std::uint32_t record = 1; record <= 8; ++record) {
+    for (int look = 0; look < 3; ++look) EXPECT_FALSE(bench.read(record));
+  }
+  EXPECT_EQ(bench.status.losses, 8U);
+  for (int look = 0; look < 2; ++look) bench.show(8);
+  EXPECT_EQ(bench.status.last, 0U) << "headers that named too new a record may have been wrong";
+  bench.show(8);
+  EXPECT_EQ(bench.status.last, 8U);
+}
+
+TEST(RingReader, StopsWhenTheNumberingRestartsWithoutAnotherRunId) {
+  Bench bench;
+  bench.show(8);
+  EXPECT_TRUE(bench.read());
+  EXPECT_TRUE(bench.read());
+  bench.take();
+  EXPECT_TRUE(bench.ring.knows(8));
+  bench.show(3);
+  EXPECT_FALSE(bench.ring.stopped()) << "one header may be an older one";
+  EXPECT_FALSE(bench.ring.knows(3)) << "until it is clear nothing is acknowledged";
+  bench.show(4);
+  EXPECT_TRUE(bench.ring.stopped());
+  EXPECT_NE(bench.status.stopped.find("newest record is 4 although record 8 was read before"), std::string::npos)
+      << bench.status.stopped;
+  bench.show(20);
+  EXPECT_EQ(bench.ring.next_batch().count, 0);
+}
+
+TEST(RingReader, ADeviceThatWasToldToGoOnMayShowOlderRecordsAgain) {
+  Bench bench;
+  bench.show(8);
+  EXPECT_TRUE(bench.read());
+  EXPECT_TRUE(bench.read());
+  bench.take();
+  for (int look = 0; look < 3; ++look) bench.show(0);
+  EXPECT_FALSE(bench.ring.stopped()) << "it was switched on again and waits";
+  EXPECT_TRUE(bench.ring.holds_none());
+  bench.ring.goes_on_behind(5);
+  for (std::uint32_t newest = 6; newest <= 9; ++newest) bench.show(newest);
+  EXPECT_FALSE(bench.ring.stopped());
+  EXPECT_TRUE(bench.read());
+  EXPECT_EQ(bench.take(), Sequences{9});
+}
+
+constexpr std::uint32_t kLastNumber = 0xFFFFFFFFU;
+
+TEST(RingReader, TakesTheLastRecordThatHasANumberAndNoFurtherOne) {
+  Bench bench(kLastNumber - 3);
+  bench.show(kLastNumber, 2 | 16);
+  EXPECT_TRUE(bench.read());
+  EXPECT_EQ(bench.take(), (Sequences{kLastNumber - 2, kLastNumber - 1, kLastNumber}));
+  for (int look = 0; look < 4; ++look) bench.show(kLastNumber, 2 | 16);
+  EXPECT_EQ(bench.ring.next_batch().count, 0);
+  EXPECT_EQ(bench.status.losses, 0U) << bench.status.last_loss;
+  EXPECT_EQ(bench.status.last, kLastNumber);
+  EXPECT_TRUE(bench.status.finished);
+  for (int look = 0; look < 2; ++look) bench.show(1);
+  EXPECT_TRUE(bench.ring.stopped());
+  EXPECT_NE(bench.status.stopped.find("there is no number beyond that"), std::string::npos) << bench.status.stopped;
 }
 
 TEST(RingReader, TakesTheOverflowBitForAGap) {

@@ -61,6 +61,37 @@ TEST(SerialSession, RepeatsAnUnansweredStart) {
   EXPECT_EQ(bench.status.link, LinkState::up);
 }
 
+TEST(SerialSession, StopsWhereTheProgramEndsBeforeWhatWasTaken) {
+  Bench bench;
+  bench.hear("RUN,1");
+  for (const std::uint32_t sequence : {1U, 2U, 3U}) bench.point(sequence);
+  bench.hear("END,2");
+  bench.point(4);
+  bench.hear("END,2");
+  EXPECT_FALSE(bench.session.stopped()) << "one may be an older line";
+  bench.hear("END,2");
+  EXPECT_TRUE(bench.session.stopped());
+  EXPECT_NE(bench.status.stopped.find("ends with record 2 although record 4 was read"), std::string::npos)
+      << bench.status.stopped;
+}
+
+TEST(SerialSession, AsksForNoRecordBehindTheLastNumberThereIs) {
+  constexpr std::uint32_t kLast = 0xFFFFFFFFU;
+  Bench bench(kLast - 1);
+  bench.hear("RUN,3");
+  static_cast<void>(bench.sent());
+  bench.point(kLast);
+  EXPECT_EQ(bench.take(), Sequences{kLast});
+  bench.session.acknowledge(kLast);
+  EXPECT_EQ(bench.sent(), "ACK,4294967295");
+  bench.wait(1500);
+  EXPECT_EQ(bench.sent(), "ACK,4294967295") << "no record 0 is missing";
+  EXPECT_EQ(bench.session.last(), kLast);
+  for (int silence = 0; silence < 12; ++silence) bench.wait(1500);
+  EXPECT_EQ(bench.status.losses, 0U);
+  EXPECT_TRUE(bench.status.stopped.empty()) << bench.status.stopped;
+}
+
 TEST(SerialSession, DeliversOnceInOrderAndAcknowledges) {
   Bench bench;
   bench.hear("RUN,1");

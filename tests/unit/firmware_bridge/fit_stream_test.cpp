@@ -42,7 +42,11 @@ TEST(BridgeFitStream, ResetForgetsEverythingAndAReplayGivesTheSameBits) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(localizer->fit().rms_mm), std::bit_cast<std::uint64_t>(first.rms_mm));
   std::vector<StreamEvent> events = {{EventKind::finished, {}}, {EventKind::reset, {}}};
   for (const ProbePoint& point : measured_points(100)) events.push_back({EventKind::point, point});
-  stream.replay(events);
+  const bool given = stream.replay([&events](const auto& take) {
+    std::ranges::for_each(events, take);
+    return true;
+  });
+  EXPECT_TRUE(given);
   EXPECT_EQ(localizer->fit().points, 100U);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(localizer->fit().rms_mm), std::bit_cast<std::uint64_t>(first.rms_mm));
 }

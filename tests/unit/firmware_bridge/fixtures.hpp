@@ -72,6 +72,8 @@ class ScriptedSource : public ProbeSource {
       status_.finished = next_ == points_.size();
       if (later_run_id) status_.run_id = *later_run_id;
       status_.losses = losses;
+      status_.last = last;
+      status_.stopped = stopped;
       std::this_thread::sleep_for(timeout);
       return 0;
     }
@@ -92,6 +94,8 @@ class ScriptedSource : public ProbeSource {
   std::size_t stop_after = SIZE_MAX;          ///< falls silent after so many points
   bool device_fault = false;
   std::atomic<std::uint64_t> losses{0};  ///< how many it tells of once it is silent
+  std::uint32_t last = 0;                ///< and up to which record all others are given up
+  std::string stopped;                   ///< and why it goes no further
   std::uint32_t opened_after = 0;
   std::uint32_t acknowledged = 0;
   bool closed = false;

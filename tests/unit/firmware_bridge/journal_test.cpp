@@ -164,7 +164,7 @@ TEST(BridgeJournal, RefusesForeignFilesAndOtherVersions) {
   JournalHeader header = make_journal_header(kIdentity, kRun);
   header.version = kJournalVersion + 1;
   write_whole(path, std::string(reinterpret_cast<const char*>(&header), sizeof header));
-  EXPECT_NE(read_journal(path, content).message.find("this program reads version 5"), std::string::npos);
+  EXPECT_NE(read_journal(path, content).message.find("this program reads version 6"), std::string::npos);
   EXPECT_FALSE(read_journal(folder / "missing.bin", content));
   EXPECT_FALSE(content.exists);
 }

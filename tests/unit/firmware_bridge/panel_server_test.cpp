@@ -163,20 +163,45 @@ TEST(BridgePanelServer, StuckAndFloodingClientsDoNotHinderOthers) {
   for (const int descriptor : {half, foreign, flood}) close(descriptor);
 }
 
-TEST(BridgePanelServer, TakesSixteenClientsAndTellsTheNextNo) {
+TEST(BridgePanelServer, TheClientThatIsSilentForLongestMakesRoomForAnotherOfItsAddress) {
   const ServedPanel panel;
   std::vector<Context> contexts;
-  for (std::size_t client = 0; client < PanelServer::kMostClients; ++client) {
+  for (std::size_t client = 0; client < PanelServer::kMostOfAnAddress; ++client) {
     contexts.push_back(connected(panel.port()));
     ASSERT_TRUE(reads_the_map(contexts.back().get()));
   }
+  ASSERT_TRUE(reads_the_map(contexts.front().get()));
   const Context extra = connected(panel.port());
-  EXPECT_TRUE(!extra || !reads_the_map(extra.get()));
-  for (const Context& context : contexts) EXPECT_TRUE(reads_the_map(context.get()));
-  contexts.pop_back();
+  ASSERT_TRUE(extra);
+  EXPECT_TRUE(reads_the_map(extra.get()));
+  EXPECT_FALSE(reads_the_map(contexts[1].get())) << "it has been silent for longest";
+  EXPECT_TRUE(reads_the_map(contexts.front().get()));
+  EXPECT_TRUE(reads_the_map(contexts.back().get()));
+}
+
+TEST(BridgePanelServer, ManyPoliteClientsDoNotLockTheOperatorOut) {
+  const ServedPanel panel;
+  std::atomic<bool> stop{false};
+  std::thread crowd([&] {
+    std::vector<Context> contexts(PanelServer::kMostOfAnAddress);
+    while (!stop.load()) {
+      for (Context& context : contexts) {
+        if (!context) context = connected(panel.port());
+        if (context && !reads_the_map(context.get())) context.reset();
+      }
+    }
+  });
   std::this_thread::sleep_for(100ms);
-  const Context next = connected(panel.port());
-  EXPECT_TRUE(reads_the_map(next.get()));
+  const Context operators = connected(panel.port());
+  ASSERT_TRUE(operators);
+  int read = 0;
+  for (int round = 0; round < 20; ++round) {
+    read += reads_the_map(operators.get()) ? 1 : 0;
+    std::this_thread::sleep_for(5ms);
+  }
+  EXPECT_EQ(read, 20);
+  stop.store(true);
+  crowd.join();
 }
 
 TEST(BridgePanelServer, LetsInOnlyWhoIsOnTheList) {

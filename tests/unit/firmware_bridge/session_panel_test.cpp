@@ -52,6 +52,11 @@ class WatchedSession {
     return host_.finish();
   }
 
+  void conclude(const BladeVerdict& verdict) { host_.conclude(verdict); }
+
+  /// What the session's own screen gets.
+  [[nodiscard]] PanelState own() const { return host_.panel_state(); }
+
   PanelState panel;
 
  private:
@@ -86,6 +91,20 @@ TEST(SessionPanel, ALossAfterTheAcknowledgedOneRaisesTheAlarmAgain) {
   source.losses = 2;
   EXPECT_TRUE(session.shows(alarmed));
   EXPECT_FALSE(session.stop().error);
+}
+
+TEST(SessionPanel, EndsWithTheVerdictOfTheWholeResult) {
+  ScriptedSource source(measured_points(kSessionPoints));
+  WatchedSession session(source);
+  ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.points == kSessionPoints; }));
+  EXPECT_FALSE(session.stop().error);
+  BladeVerdict verdict;
+  verdict.reasons.add(Reason::ambiguous);
+  session.conclude(verdict);
+  EXPECT_TRUE(session.shows([](const PanelState& shown) {
+    return shown.verdict == BladeState::not_decided && shown.reasons == kReasonAmbiguous;
+  }));
+  EXPECT_EQ(session.own().reasons, kReasonAmbiguous) << "the session's own screen shows the same";
 }
 
 TEST(SessionPanel, ShowsTheSession) {

@@ -58,6 +58,26 @@ TEST(StreamLosses, PointsWithoutANumberCountAsLost) {
   EXPECT_EQ(losses.records(), 0U);
 }
 
+TEST(StreamLosses, RecordsThatAreGivenUpAreLostAtOnce) {
+  StreamLosses losses;
+  EXPECT_FALSE(losses.take(event(EventKind::point, 1)));
+  const auto lost = losses.take(event(EventKind::lost, 9));
+  ASSERT_TRUE(lost);
+  EXPECT_EQ(lost->first, 2U);
+  EXPECT_EQ(lost->last, 9U);
+  EXPECT_FALSE(losses.take(event(EventKind::point, 10)));
+  EXPECT_EQ(losses.records(), 8U);
+}
+
+TEST(StreamLosses, NothingIsLostBehindTheLastNumberThereIs) {
+  constexpr std::uint32_t kLast = 0xFFFFFFFFU;
+  StreamLosses losses;
+  EXPECT_TRUE(losses.take(event(EventKind::point, kLast - 1)));
+  EXPECT_FALSE(losses.take(event(EventKind::point, kLast)));
+  EXPECT_FALSE(losses.take(event(EventKind::finished, kLast)));
+  EXPECT_EQ(losses.records(), kLast - 2);
+}
+
 TEST(StreamLosses, AResetForgetsThemAndGoesOnWithTheNumbering) {
   StreamLosses losses;
   EXPECT_TRUE(losses.take(event(EventKind::point, 3)));

@@ -51,6 +51,22 @@ TallyCounts counted_anew(const Tally& tally) {
   return counts;
 }
 
+std::vector<std::uint32_t> newest_out(const Tally& tally) {
+  std::vector<std::uint32_t> sequences;
+  for (const Verdict& verdict : tally.newest_leading_edge_out()) sequences.push_back(verdict.sequence);
+  return sequences;
+}
+
+/// The distance of largest magnitude, by looking at them all.
+double farthest(const Tally& tally, Region region) {
+  double distance = 0;
+  for (const Verdict& verdict : tally.verdicts()) {
+    const bool judged = verdict.region == region && verdict.state != PointState::rejected;
+    if (judged && verdict.state != PointState::pending) distance = std::max(distance, verdict.foot.distance);
+  }
+  return distance;
+}
+
 TEST(BridgeTally, CountsAgreeWithCountingAnewForAnyRevisions) {
   std::mt19937 random(20240511);
   const ToleranceMap judged_everywhere = all_judged();
@@ -68,7 +84,7 @@ TEST(BridgeTally, CountsAgreeWithCountingAnewForAnyRevisions) {
     ASSERT_EQ(counts.pending, expected.pending);
     ASSERT_EQ(counts.undecided, expected.undecided);
     ASSERT_EQ(tally.zones().points(0), zone_points(tally));
-    ASSERT_EQ(tally.leading_edge_out().size(), expected.leading_edge_out);
+    ASSERT_EQ(tally.newest_leading_edge_out().size(), std::min<std::size_t>(expected.leading_edge_out, Tally::kNewest));
     ASSERT_TRUE(std::ranges::is_sorted(tally.verdicts(), {}, &Verdict::sequence));
   }
 }
@@ -88,7 +104,41 @@ TEST(BridgeTally, TheWorstPointIsAJudgedOneUnlessPendingOnesAreAskedFor) {
   EXPECT_EQ(tally.worst(Region::rest, true), nullptr);
 }
 
-TEST(BridgeTally, ListsLeadingEdgePointsInTheOrderInWhichTheyBecameOut) {
+TEST(BridgeTally, TheWorstPointIsFoundAgainWhenItComesNearer) {
+  std::mt19937 random(77);
+  const ToleranceMap judged_everywhere = all_judged();
+  Tally tally(judged_everywhere);
+  for (int step = 0; step < 2000; ++step) {
+    Verdict made = verdict(1 + static_cast<std::uint32_t>(random() % 50), static_cast<PointState>(random() % 5),
+                           static_cast<Region>(random() % 2));
+    made.foot.distance = static_cast<double>(random() % 1000);
+    tally.accept(made);
+    for (const Region region : {Region::rest, Region::leading_edge}) {
+      const Verdict* const worst = tally.worst(region, false);
+      ASSERT_EQ(worst != nullptr ? worst->foot.distance : 0, farthest(tally, region)) << step;
+    }
+  }
+}
+
+TEST(BridgeTally, APointThatIsGivenUpStaysInEveryFigure) {
+  const ToleranceMap judged_everywhere = all_judged();
+  Tally tally(judged_everywhere);
+  Verdict far = verdict(1, PointState::out), near = verdict(2, PointState::out);
+  far.foot.distance = -3.0;
+  near.foot.distance = 1.0;
+  tally.accept(far);
+  tally.accept(near);
+  tally.give_up(1);
+  tally.give_up(99);
+  EXPECT_EQ(tally.find(1), nullptr);
+  EXPECT_EQ(tally.counts().leading_edge_out, 2U);
+  near.foot.distance = 0.5;
+  tally.accept(near);
+  EXPECT_EQ(tally.worst(Region::leading_edge, false)->sequence, 1U);
+  EXPECT_EQ(newest_out(tally), (std::vector<std::uint32_t>{2, 1}));
+}
+
+TEST(BridgeTally, ListsTheLeadingEdgePointThatBecameOutLastFirst) {
   const ToleranceMap judged_everywhere = all_judged();
   Tally tally(judged_everywhere);
   for (const std::uint32_t sequence : {1U, 2U, 3U, 4U}) tally.accept(verdict(sequence, PointState::in));
@@ -96,11 +146,10 @@ TEST(BridgeTally, ListsLeadingEdgePointsInTheOrderInWhichTheyBecameOut) {
   tally.accept(verdict(2, PointState::out));
   tally.accept(verdict(3, PointState::out, Region::rest));
   tally.accept(verdict(4, PointState::out));  // told again: keeps its place
-  EXPECT_EQ(std::vector<std::uint32_t>(tally.leading_edge_out().begin(), tally.leading_edge_out().end()),
-            (std::vector<std::uint32_t>{4, 2}));
+  EXPECT_EQ(newest_out(tally), (std::vector<std::uint32_t>{2, 4}));
   EXPECT_EQ(tally.times_out(), 3U);
   tally.accept(verdict(4, PointState::in));
-  EXPECT_EQ(tally.leading_edge_out().size(), 1U);
+  EXPECT_EQ(newest_out(tally), std::vector<std::uint32_t>{2});
   tally.clear();
   EXPECT_EQ(tally.counts().points, 0U);
   EXPECT_EQ(tally.find(2), nullptr);
