@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLongestNumber = 64;
 constexpr std::string_view kBlanks = " \t";
-constexpr std::string_view kAxes = "xyz";
+constexpr std::string_view kAxisLetters = "xyz";
 constexpr std::string_view kInchMark = "\"", kMmMark = "mm";
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
@@ -45,7 +45,7 @@ class LineParser {
   [[nodiscard]] std::string take_digits(DroNumber& number);
 
   [[nodiscard]] char peek() const { return rest_.empty() ? '\0' : rest_.front(); }
-  [[nodiscard]] bool at_label() const { return settings_.labels && kAxes.find(lower(peek())) < kAxes.size(); }
+  [[nodiscard]] bool at_label() const { return settings_.labels && kAxisLetters.find(lower(peek())) < kAxisLetters.size(); }
 
   std::size_t skip(std::string_view characters) {
     const std::size_t count = std::min(rest_.find_first_not_of(characters), rest_.size());
@@ -67,7 +67,7 @@ Failure LineParser::read_labelled(DroLine& line) {
           std::ranges::find_if(line.axes, [](const auto& axis) { return !axis; }) - line.axes.begin());
       return bad_input(fmt::format("the label {} is missing", axis_letter(missing)));
     }
-    const std::size_t axis = kAxes.find(lower(peek()));
+    const std::size_t axis = kAxisLetters.find(lower(peek()));
     if (line.axes[axis]) return bad_input(fmt::format("{} stands in the line twice", axis_letter(axis)));
     rest_.remove_prefix(1);
     DroNumber number;
@@ -78,7 +78,7 @@ Failure LineParser::read_labelled(DroLine& line) {
 
 Failure LineParser::read_ordered(DroLine& line) {
   for (const char letter : settings_.order) {
-    const std::size_t axis = kAxes.find(letter);
+    const std::size_t axis = kAxisLetters.find(letter);
     const bool first = line.count() == 0;
     const std::string_view before = rest_;
     DroNumber number;
@@ -201,7 +201,7 @@ std::size_t DroLine::first_axis() const {
                                   axes.begin());
 }
 
-char axis_letter(std::size_t axis) { return static_cast<char>(std::toupper(static_cast<unsigned char>(kAxes[axis]))); }
+char axis_letter(std::size_t axis) { return static_cast<char>(std::toupper(static_cast<unsigned char>(kAxisLetters[axis]))); }
 
 Failure parse_dro_line(std::string_view text, const DroSettings& settings, DroLine& line) {
   DroLine read;

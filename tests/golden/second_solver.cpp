@@ -17,7 +17,8 @@ constexpr double kScale = 10.0;  // mm of one turn variable
 /// The distances of chosen points as functions of six numbers [mm] about a pose, and their differences.
 class Distances {
  public:
-  Distances(const ModeValue& objective, const Pose& pose) : objective_(objective), pose_(pose) {
+  Distances(const ModeValue& objective, const std::vector<double>& weights, const Pose& pose)
+      : objective_(objective), weights_(weights), pose_(pose) {
     for (const ProbePoint& point : objective.points()) centre_ += apply(pose, Vec3(point.position.data()));
     centre_ /= static_cast<double>(objective.points().size());
   }
@@ -31,7 +32,7 @@ class Distances {
   /// d / w, or d where `plain`.
   [[nodiscard]] double at(std::size_t point, const double* x, bool plain) const {
     const Foot foot = objective_.foot(objective_.points()[point], pose_at(x));
-    return foot.distance / (plain ? 1.0 : objective_.weight(foot));
+    return foot.distance / (plain ? 1.0 : weights_[point]);
   }
 
   void differences(std::size_t point, const double* x, bool plain, double* out) const {
@@ -48,6 +49,7 @@ class Distances {
 
  private:
   const ModeValue& objective_;
+  const std::vector<double>& weights_;
   Pose pose_;
   Vec3 centre_ = Vec3::Zero();
 };
@@ -103,54 +105,69 @@ void bounds_of(unsigned m, double* result, unsigned n, const double* x, double* 
   }
 }
 
-/// Points whose distance is large, or that are bounded already.
-void bound_large(Program& program, const Pose& pose) {
-  const ModeValue& objective = program.objective;
+/// d / w of every point at a pose.
+std::vector<double> sizes_at(const ModeValue& objective, const std::vector<double>& weights, const Pose& pose) {
   std::vector<double> sizes;
-  double least = 0, most = 0;
-  for (const ProbePoint& point : objective.points()) {
-    const Foot foot = objective.foot(point, pose);
-    sizes.push_back(foot.distance / objective.weight(foot));
-    least = std::min(least, sizes.back());
-    most = std::max(most, sizes.back());
-  }
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    sizes.push_back(objective.foot(objective.points()[k], pose).distance / weights[k]);
+  return sizes;
+}
+
+/// Points whose distance is large, or that are bounded already.
+void bound_large(Program& program, const std::vector<double>& sizes) {
+  const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
+  std::vector<bool> wanted(sizes.size());
+  for (const std::size_t k : program.bounded) wanted[k] = true;
+  program.bounded.clear();
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    const bool large = program.range() ? sizes[k] > kLooked * most || sizes[k] < kLooked * least
-                                       : std::abs(sizes[k]) > kLooked * std::max(most, -least);
-    if (large && !std::binary_search(program.bounded.begin(), program.bounded.end(), k))
-      program.bounded.insert(std::upper_bound(program.bounded.begin(), program.bounded.end(), k), k);
+    const bool large = program.range() ? sizes[k] > kLooked * *most || sizes[k] < kLooked * *least
+                                       : std::abs(sizes[k]) > kLooked * std::max(*most, -*least);
+    if (large || wanted[k]) program.bounded.push_back(k);
   }
+}
+
+/// The mode's objective; infinite where a bound of a constrained fit is broken.
+double value_at(const ModeValue& objective, const std::vector<double>& sizes, const Pose& pose) {
+  const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
+  const double largest = std::max(*most, -*least);
+  if (objective.config().mode == FitMode::range) return *most - *least;
+  if (objective.config().mode != FitMode::constrained) return largest;
+  return largest > 1.0 + 1e-8 ? std::numeric_limits<double>::infinity() : objective.at(pose);
+}
+
+/// One run of SLSQP about a pose.
+Pose solve_once(Program& program, double largest) {
+  const unsigned n = program.variables(), m = 2 * static_cast<unsigned>(program.bounded.size());
+  std::vector<double> x(n, 0.0);
+  if (n > 6) x[6] = largest;
+  if (n > 7) x[7] = -largest;
+  nlopt_opt optimizer = nlopt_create(NLOPT_LD_SLSQP, n);
+  nlopt_set_min_objective(optimizer, value_of, &program);
+  const std::vector<double> tolerance(m, 1e-10);
+  nlopt_add_inequality_mconstraint(optimizer, m, bounds_of, &program, tolerance.data());
+  nlopt_set_xtol_rel(optimizer, 1e-11);
+  nlopt_set_maxeval(optimizer, kMostEvaluations);
+  double value = 0;
+  (void)nlopt_optimize(optimizer, x.data(), &value);
+  nlopt_destroy(optimizer);
+  return program.distances.pose_at(x.data());
 }
 
 }  // namespace
 
-SecondOptimum solve_again(const ModeValue& objective, const Pose& start) {
-  SecondOptimum best{objective.at(start), start};
-  if (objective.config().mode == FitMode::constrained && objective.largest_ratio(start) > 1.0)
-    best.value = std::numeric_limits<double>::infinity();
+SecondOptimum solve_again(const ModeValue& objective, const std::vector<double>& weights, const Pose& start) {
+  std::vector<double> sizes = sizes_at(objective, weights, start);
+  SecondOptimum best{value_at(objective, sizes, start), start};
   Pose here = start;
   std::vector<std::size_t> bounded;
   for (int round = 0; round < kRounds; ++round) {
-    Program program{objective, Distances(objective, here), bounded};
-    bound_large(program, here);
-    const unsigned n = program.variables(), m = 2 * static_cast<unsigned>(program.bounded.size());
-    std::vector<double> x(n, 0.0);
-    const double size = objective.largest_ratio(here);
-    if (n > 6) x[6] = size;
-    if (n > 7) x[7] = -size;
-    nlopt_opt optimizer = nlopt_create(NLOPT_LD_SLSQP, n);
-    nlopt_set_min_objective(optimizer, value_of, &program);
-    const std::vector<double> tolerance(m, 1e-10);
-    nlopt_add_inequality_mconstraint(optimizer, m, bounds_of, &program, tolerance.data());
-    nlopt_set_xtol_rel(optimizer, 1e-11);
-    nlopt_set_maxeval(optimizer, kMostEvaluations);
-    double value = 0;
-    (void)nlopt_optimize(optimizer, x.data(), &value);
-    nlopt_destroy(optimizer);
-    here = program.distances.pose_at(x.data());
+    Program program{objective, Distances(objective, weights, here), bounded};
+    bound_large(program, sizes);
+    const auto [least, most] = std::minmax_element(sizes.begin(), sizes.end());
+    here = solve_once(program, std::max(*most, -*least));
     bounded = program.bounded;
-    const bool kept = objective.config().mode != FitMode::constrained || objective.largest_ratio(here) <= 1.0 + 1e-8;
-    const double there = kept ? objective.at(here) : std::numeric_limits<double>::infinity();
+    sizes = sizes_at(objective, weights, here);
+    const double there = value_at(objective, sizes, here);
     const bool better = there < best.value * (1.0 - 1e-9);
     if (there < best.value) best = {there, here};
     if (!better && round > 0) break;

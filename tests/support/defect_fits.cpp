@@ -83,6 +83,11 @@ DefectFit fit_defects(const CompiledDesign& design, const LocalizerConfig& confi
   out.least_squares = least_squares_pose(design, config, points);
   out.counted = counted(*fit, points);
   const ModeValue objective(design, config, out.counted);
+  for (const ProbePoint& point : out.counted) {
+    Verdict verdict;
+    (void)fit->verdict_of(point.sequence, verdict);
+    out.weights.push_back(objective.weight(verdict.region));
+  }
   const bool unmet = config.mode == FitMode::constrained && objective.largest_ratio(out.least_squares) > 1.0;
   out.least_squares_value = unmet ? std::numeric_limits<double>::infinity() : objective.at(out.least_squares);
   out.value = objective.at(out.report.pose);

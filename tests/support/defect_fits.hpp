@@ -19,6 +19,7 @@ struct DefectFit {
   double value = 0;    ///< by the definition, at the pose found
   Pose least_squares;  ///< the pose of that fit
   std::vector<ProbePoint> counted;  ///< points that count in the mode's fit
+  std::vector<double> weights;      ///< of these, by the regions that they ended in
   [[nodiscard]] bool answered() const;
   /// Empty: all is well. Else what is wrong with an answer.
   std::string complaint;

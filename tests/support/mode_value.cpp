@@ -25,6 +25,13 @@ double ModeValue::weight(const Foot& foot) const {
   return tolerance_at(bounds, foot.patch, foot.u, foot.v);
 }
 
+double ModeValue::weight(Region region) const {
+  const bool edge = region == Region::leading_edge;
+  if (config_.mode == FitMode::minimax || config_.mode == FitMode::range) return 1.0;
+  if (config_.mode == FitMode::constrained) return edge ? config_.tolerance.leading_edge_mm : config_.tolerance.rest_mm;
+  return edge ? 1.0 : config_.ratio;
+}
+
 double ModeValue::at(const Pose& pose) const {
   double least = std::numeric_limits<double>::infinity(), most = -least, ratio = 0.0, square = 0.0;
   for (const ProbePoint& point : points_) {
@@ -36,11 +43,6 @@ double ModeValue::at(const Pose& pose) const {
   }
   if (config_.mode == FitMode::constrained || config_.mode == FitMode::least_squares) return square;
   return config_.mode == FitMode::range ? most - least : ratio;
-}
-
-bool ModeValue::same_weights(const Pose& one, const Pose& other) const {
-  return std::all_of(points_.begin(), points_.end(),
-                     [&](const ProbePoint& point) { return weight(foot(point, one)) == weight(foot(point, other)); });
 }
 
 double ModeValue::largest_ratio(const Pose& pose) const {

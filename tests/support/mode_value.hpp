@@ -17,12 +17,12 @@ class ModeValue {
   [[nodiscard]] Foot foot(const ProbePoint& point, const Pose& pose) const;
   /// Bound of a foot: 1 in minimax and range, the tolerance [mm] in constrained, 1 or the ratio in min_tolerance.
   [[nodiscard]] double weight(const Foot& foot) const;
+  /// The same of a region, where there is no transition between them.
+  [[nodiscard]] double weight(Region region) const;
   /// max |d|, max d - min d, max |d| / w; in constrained and least squares sum d^2 [mm].
   [[nodiscard]] double at(const Pose& pose) const;
   /// The largest |d| / w.
   [[nodiscard]] double largest_ratio(const Pose& pose) const;
-  /// Whether each point has the same bound at both poses.
-  [[nodiscard]] bool same_weights(const Pose& one, const Pose& other) const;
   [[nodiscard]] const std::vector<ProbePoint>& points() const { return points_; }
   [[nodiscard]] const CompiledDesign& design() const { return design_; }
   [[nodiscard]] const LocalizerConfig& config() const { return config_; }
