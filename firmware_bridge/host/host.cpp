@@ -110,6 +110,7 @@ Host::~Host() {
   if (!running_) return;
   request_stop();
   shared_.panel_closed.store(true);
+  shared_.to_publication.wakeup.signal();
   for (std::thread& thread : running_->threads) {
     if (thread.joinable()) thread.join();
   }
@@ -154,9 +155,10 @@ bool Host::wait_for_end(std::chrono::milliseconds timeout) {
 void Host::request_stop() { shared_.requests.stop.store(true); }
 
 SessionResult Host::finish() {
-  shared_.panel_closed.store(true);
   shared_.to_publication.wakeup.signal();
-  for (std::thread& thread : running_->threads) thread.join();
+  // The first thread, which serves the panel, goes on; the tally that it keeps stays as it is.
+  for (std::size_t index = 1; index < running_->threads.size(); ++index) running_->threads[index].join();
+  while (!shared_.tally_final.load()) std::this_thread::sleep_for(kEndPoll);
   SessionResult result{.end = shared_.outcome.end(),
                        .error = shared_.outcome.failure(),
                        .report = {},

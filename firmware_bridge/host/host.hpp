@@ -54,7 +54,8 @@ class Host {
   /// Ends the session as if its last point had come. Any thread.
   void request_stop();
 
-  /// Closes the panel and gives what the session came to. Call once, after wait_for_end() was true.
+  /// Gives what the session came to. Call once, after wait_for_end() was true. The panel goes on showing it, as ended,
+  /// until the host is destroyed.
   [[nodiscard]] SessionResult finish();
 
  private:

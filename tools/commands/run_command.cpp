@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <thread>
 
 #include "drivers/make_source.hpp"
 #include "drivers/source_registry.hpp"
@@ -65,14 +66,22 @@ PanelClient own_panel(const PanelServerSettings& settings, std::uint16_t port) {
   return {any_address ? "localhost" : settings.host, port};
 }
 
-void watch(Host& host, const RunPlan& plan) {
-  const StopFlag stop;
+void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
   std::optional<PanelDisplay> display;
   if (!plan.headless) display.emplace(own_panel(plan.host.panel, host.panel_port()));
   while (!host.wait_for_end(kTurn)) {
     if (stop.requested()) host.request_stop();
     if (display) display->turn();
   }
+}
+
+/// Keeps the panel of an ended session as long as the settings say, for those who look at it; a signal ends it.
+void linger(const RunPlan& plan, const StopFlag& stop, std::uint16_t port) {
+  if (plan.linger.count() == 0 || stop.requested()) return;
+  fmt::print(stderr, "bladefit: the panel at {}:{} shows the result for {} s; Ctrl-C ends\n", plan.host.panel.host,
+             port, std::chrono::duration<double>(plan.linger).count());
+  const auto until = std::chrono::steady_clock::now() + plan.linger;
+  while (!stop.requested() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(kTurn);
 }
 
 std::string ending(const SessionResult& session) {
@@ -126,10 +135,14 @@ int run(const RunFlags& flags) {
   fmt::print(words, "Points from {}, session in {}, panel at {}:{}\n", source_name(plan.source),
              plan.host.session_directory, plan.host.panel.host, host.panel_port());
   std::fflush(words);
-  watch(host, plan);
+  const StopFlag stop;
+  watch(host, plan, stop);
   const SessionResult session = host.finish();
   notices.flush();
-  return conclude(plan, session, words);
+  const int exit_code = conclude(plan, session, words);
+  std::fflush(words);
+  linger(plan, stop, host.panel_port());
+  return exit_code;
 }
 
 void add_session_options(CLI::App& command, RunFlags& flags) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_bridge/host/panel/panel_texts.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -21,6 +23,11 @@ PanelPlace place_of(const Verdict& verdict, const ShaftAxis& axis) {
           .action = verdict.action};
 }
 
+/// How far off in tolerances; 0 where there is no point, or no tolerance.
+double over_tolerance(const Verdict* verdict) {
+  return verdict != nullptr ? std::abs(verdict->foot.distance) / verdict->tolerance_mm : 0;
+}
+
 }  // namespace
 
 Publication::Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, PanelServer& server, HostShared& shared)
@@ -29,11 +36,14 @@ Publication::Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, P
 void Publication::run() {
   const auto on_commands = [this](const PanelCommands& commands) { follow(commands); };
   while (true) {
-    const bool last_turn = shared_.panel_closed.load() && shared_.fit_done.load();
+    const bool over = shared_.fit_done.load();
+    const bool last_turn = over && shared_.panel_closed.load();
     shared_.to_publication.wakeup.clear();
     take_news();
     update_state();
-    server_.serve(encode_panel(state_), on_commands);
+    state_.ended = over;
+    if (over) shared_.tally_final.store(true);
+    server_.serve(encode_panel(state_, server_.format()), on_commands);
     if (last_turn) return;
     server_.wait(shared_.to_publication.wakeup.descriptor(), kLongestWait);
   }
@@ -81,6 +91,8 @@ void Publication::update_counts() {
   state_.worst_leading_edge_sequence = (edge != nullptr ? *edge : none).sequence;
   state_.worst_rest = to_float((rest != nullptr ? *rest : none).foot.distance);
   state_.worst_rest_sequence = (rest != nullptr ? *rest : none).sequence;
+  const Verdict* const worst = over_tolerance(rest) > over_tolerance(edge) || edge == nullptr ? rest : edge;
+  state_.texts[1] = worst_words(worst, worst != nullptr ? axis_.radius_of(worst->foot.point) : 0);
 }
 
 void Publication::update_fit() {
@@ -122,7 +134,12 @@ void Publication::update_verdict() {
   state_.verdict = verdict.state;
   state_.reasons = reason_bits(verdict.reasons);
   if (link_.link == LinkState::lost) state_.reasons |= kReasonLinkLost;
+  const bool both_judged = std::isfinite(tolerance_.leading_edge_mm) && std::isfinite(tolerance_.rest_mm);
+  if (!both_judged) state_.reasons |= kReasonNoTolerance;
   state_.fit_determined = report.determined == report.free;
+  state_.planned = link_.planned;
+  state_.texts[0] = verdict_words(state_);
+  state_.texts[2] = advice_words(state_);
 }
 
 void Publication::update_last() {

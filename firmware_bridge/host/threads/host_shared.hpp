@@ -44,6 +44,7 @@ struct LinkFigures {
   std::uint64_t losses = 0;  ///< how often points were lost in the device
   bool paused = false;
   bool device_fault = false;
+  std::uint32_t planned = 0;  ///< points that the source will give; 0 = not known
 };
 
 /// All that the threads of a host share. Everything in it may be used by two threads at once in the way that its own
@@ -63,6 +64,7 @@ struct HostShared {
 
   std::atomic<bool> journal_closed{false};  ///< nothing more comes through `to_journal`
   std::atomic<bool> fit_done{false};        ///< nothing more comes through `to_publication`
+  std::atomic<bool> tally_final{false};     ///< and the publication thread has taken all of it
   std::atomic<bool> panel_closed{false};    ///< the panel is no longer wanted
 };
 
