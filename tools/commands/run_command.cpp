@@ -76,10 +76,11 @@ void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
 }
 
 /// Keeps the panel of an ended session as long as the settings say, for those who look at it; a signal ends it.
-void linger(const RunPlan& plan, const StopFlag& stop, std::uint16_t port) {
+void linger(const RunPlan& plan, const StopFlag& stop, std::uint16_t port, std::FILE* words) {
   if (plan.linger.count() == 0 || stop.requested()) return;
-  fmt::print(stderr, "bladefit: the panel at {}:{} shows the result for {} s; Ctrl-C ends\n", plan.host.panel.host,
-             port, std::chrono::duration<double>(plan.linger).count());
+  fmt::print(words, "The panel at {}:{} shows the result for {} s; Ctrl-C ends\n", plan.host.panel.host, port,
+             std::chrono::duration<double>(plan.linger).count());
+  std::fflush(words);
   const auto until = std::chrono::steady_clock::now() + plan.linger;
   while (!stop.requested() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(kTurn);
 }
@@ -140,8 +141,7 @@ int run(const RunFlags& flags) {
   const SessionResult session = host.finish();
   notices.flush();
   const int exit_code = conclude(plan, session, words);
-  std::fflush(words);
-  linger(plan, stop, host.panel_port());
+  linger(plan, stop, host.panel_port(), words);
   return exit_code;
 }
 

@@ -160,18 +160,19 @@ constexpr auto kFields = std::to_array<PanelField>({
     text(2, "advice_text", "what to do"),
 });
 
-constexpr std::array<PanelBit, 7> kInputs = {{{"leading_edge_out", "a point of the leading edge is out of tolerance"},
-                                              {"any_out", "any point is out of tolerance"},
-                                              {"link_lost", "the machine does not answer"},
-                                              {"fit_determined", "every free degree of freedom is determined"},
-                                              {"in_tolerance", "the verdict is in tolerance"},
-                                              {"not_decided", "the verdict is not decided"},
-                                              {"ended", "the session is over, what is shown is its result"}}};
+constexpr std::array<PanelBit, 7> kInputs = {
+    {{"is_leading_edge_out", "a point of the leading edge is out of tolerance"},
+     {"is_any_out", "any point is out of tolerance"},
+     {"is_link_lost", "the machine does not answer"},
+     {"is_fit_determined", "every free degree of freedom is determined"},
+     {"is_in_tolerance", "the verdict is in tolerance"},
+     {"is_not_decided", "the verdict is not decided"},
+     {"is_ended", "the session is over, what is shown is its result"}}};
 
-constexpr std::array<PanelBit, kPanelCoils> kCoils = {{{"start", "take points again"},
-                                                       {"stop", "take no points"},
-                                                       {"reset", "forget all points"},
-                                                       {"acknowledge", "the alarms have been seen"}}};
+constexpr std::array<PanelBit, kPanelCoils> kCoils = {{{"press_start", "take points again"},
+                                                       {"press_stop", "take no points"},
+                                                       {"press_reset", "forget all points"},
+                                                       {"press_acknowledge", "the alarms have been seen"}}};
 
 }  // namespace
 

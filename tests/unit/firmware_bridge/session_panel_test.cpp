@@ -88,6 +88,17 @@ TEST(SessionPanel, ALossAfterTheAcknowledgedOneRaisesTheAlarmAgain) {
   EXPECT_FALSE(session.stop().error);
 }
 
+TEST(SessionPanel, StaysWithTheResultOfAnEndedSession) {
+  ScriptedSource source(measured_points(kSessionPoints));
+  WatchedSession session(source);
+  ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.points == kSessionPoints && !shown.ended; }));
+  const SessionResult result = session.stop();
+  ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.ended; }));
+  EXPECT_EQ(session.panel.points, result.points.size());
+  EXPECT_EQ(session.panel.rms, static_cast<float>(result.report.rms_mm));
+  EXPECT_EQ(session.panel.leading_edge_out, result.report.leading_edge.judged_out);
+}
+
 TEST(SessionPanel, ShowsTheSession) {
   ScriptedSource source(measured_points(kSessionPoints));
   WatchedSession session(source);

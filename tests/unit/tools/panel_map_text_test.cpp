@@ -118,17 +118,17 @@ TEST(PanelMapText, NamesEveryRegisterThatIsSentAndNoneTwice) {
 
 TEST(PanelMapText, NamesBitsAndCoils) {
   const std::map<std::string, MapRow> rows = printed_map();
-  EXPECT_EQ(rows.at("ended").table, "discrete_inputs");
-  EXPECT_EQ(rows.at("ended").address, 6U);
-  EXPECT_EQ(rows.at("ended").input, "100007");
-  EXPECT_EQ(rows.at("acknowledge").table, "coils");
-  EXPECT_EQ(rows.at("acknowledge").input, "000004");
+  EXPECT_EQ(rows.at("is_ended").table, "discrete_inputs");
+  EXPECT_EQ(rows.at("is_ended").address, 6U);
+  EXPECT_EQ(rows.at("is_ended").input, "100007");
+  EXPECT_EQ(rows.at("press_acknowledge").table, "coils");
+  EXPECT_EQ(rows.at("press_acknowledge").input, "000004");
   EXPECT_NE(rows.at("alarms").meaning.find("bit 0 leading edge out"), std::string::npos);
 }
 
 TEST(PanelMapText, HasTheSameRowsInMarkdown) {
   const std::string markdown = panel_map_markdown();
-  EXPECT_EQ(std::ranges::count(markdown, '\n') - 10, static_cast<std::ptrdiff_t>(printed_map().size()))
+  EXPECT_EQ(std::ranges::count(markdown, '\n') - 11, static_cast<std::ptrdiff_t>(printed_map().size()))
       << markdown.substr(0, 900);
   EXPECT_NE(
       markdown.find("| registers | 281 | 300282 | 400282 | 1 | uint16 |  | verdict | 0 not judged, 1 in tolerance"),
