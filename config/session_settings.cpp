@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "config/fit_table.hpp"
 #include "config/table_reader.hpp"
 #include "core/localizer/check_config.hpp"
+#include "drivers/modbus/modbus_settings.hpp"
 #include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
 
@@ -44,6 +46,12 @@ void read_panel(TableReader& table, PanelSettings& panel) {
     if (table.good()) panel.port = static_cast<std::uint16_t>(port);
   }
   table.read("commands", panel.commands);
+  WordOrder order = WordOrder::high_first;
+  table.read_choice<WordOrder>("word_order", order, kWordOrders);
+  if (table.has("word_order")) panel.low_word_first = order == WordOrder::low_first;
+  table.read("infinity", panel.infinity);
+  if (panel.infinity && std::isnan(*panel.infinity)) table.fail("infinity", "is no number; give one such as 0 or 9999");
+  table.read("linger", panel.linger, NumberRange{0, kLongestIdle});
   table.read("allow", panel.allow);
   const std::vector<std::string> allowed = panel.allow.value_or(std::vector<std::string>());
   const auto wrong = std::find_if_not(allowed.begin(), allowed.end(), is_numeric_address);

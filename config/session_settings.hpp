@@ -14,6 +14,9 @@ struct PanelSettings {
   std::optional<std::string> address;             ///< to listen at; the host's default is 127.0.0.1
   std::optional<std::uint16_t> port;              ///< 0 = any free one; the host's default is 1503
   std::optional<bool> commands;                   ///< whether coils may be written
+  std::optional<bool> low_word_first;             ///< which register of a number comes first
+  std::optional<double> infinity;                 ///< sent for what is infinite; not NaN
+  std::optional<double> linger;                   ///< [s] that the panel stays with the result of an ended session
   std::optional<std::vector<std::string>> allow;  ///< addresses that may connect; empty = every one
 };
 

@@ -128,8 +128,9 @@ Failure LineParser::check_decimal_mark(std::size_t axis, const DroNumber& number
   const char other = settings_.decimal_mark == '.' ? ',' : '.';
   const bool separates = !settings_.labels && settings_.separators.find(other) != std::string::npos;
   if (!separates && peek() == other && rest_.size() > 1 && is_digit(rest_[1])) {
-    return bad_input(fmt::format("a '{}' stands within the number for {} (set decimal_mark and separators)", other,
-                                 axis_letter(axis)));
+    return bad_input(
+        fmt::format("a '{}' stands within the number for {} (set decimal_mark = \"{}\" and take it out of separators)",
+                    other, axis_letter(axis), other));
   }
   if (settings_.scale && number.marked)
     return bad_input(fmt::format("{} has a decimal mark (leave scale out)", axis_letter(axis)));
@@ -171,8 +172,8 @@ Failure LineParser::take_marks(std::size_t axis, DroNumber& number) {
     });
     if (unit != kUnitMarks.end()) {
       if ((unit->name == kInchMark) != inches) {
-        return bad_input(fmt::format("{} is marked {}, but units are {} (set units, or switch the read-out)",
-                                     axis_letter(axis), unit->word, inches ? "in" : "mm"));
+        return bad_input(fmt::format("{} is marked {}, but units are {} (set units = \"{}\", or switch the read-out)",
+                                     axis_letter(axis), unit->word, inches ? "in" : "mm", inches ? "mm" : "in"));
       }
       number.marks += unit->name;
       rest_.remove_prefix(unit->word.size());

@@ -37,8 +37,9 @@ std::string ReadoutFormat::difference(const DroPoint& reference, const DroPoint&
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const DroNumber &before = reference[axis], &now = point[axis];
     if (before.marks != now.marks) {
-      return fmt::format("'{}' stands behind {}, not '{}' as before: its units may have been switched, or {}",
-                         now.marks, axis_letter(axis), before.marks, kLostCharacter);
+      return fmt::format(
+          "the marks behind {} are \"{}\", not \"{}\" as before: its units may have been switched, or {}",
+          axis_letter(axis), now.marks, before.marks, kLostCharacter);
     }
     if (settings_.fixed_decimals && before.decimals != now.decimals) {
       return fmt::format("{} has {} decimals, not {} as before: {} (fixed_decimals = false: zeros may be dropped)",

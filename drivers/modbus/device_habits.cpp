@@ -52,12 +52,12 @@ std::vector<std::string> read_holding_instead(CmmMap& map) {
   return remarks;
 }
 
-std::vector<std::string> give_up_writing(NumberField& field) {
+std::vector<std::string> give_up_writing(NumberField& field, const std::string& fault) {
   field.present = false;
   return {
-      fmt::format("the device does not know the function that writes register {}: nothing is written there; say "
-                  "acknowledge = false or command = false in the device file",
-                  field.address)};
+      fmt::format("{}; nothing is written there from now on: correct the address, or say acknowledge = false or "
+                  "command = false in the device file",
+                  fault)};
 }
 
 std::string silence_text(int unit, std::optional<int> other_unit) {

@@ -15,8 +15,8 @@ namespace bladefit {
 /// Returns the remarks on it; none where the holding registers were read already, so that there is no other way.
 [[nodiscard]] std::vector<std::string> read_holding_instead(CmmMap& map);
 
-/// The device does not know the function that writes a field of its map. Returns the remark on it.
-[[nodiscard]] std::vector<std::string> give_up_writing(NumberField& field);
+/// The device takes no writes to a field of its map: `fault` says why. Returns the remark on it.
+[[nodiscard]] std::vector<std::string> give_up_writing(NumberField& field, const std::string& fault);
 
 /// Why the device is as good as absent: it is silent, or another unit answers in its place.
 [[nodiscard]] std::string silence_text(int unit, std::optional<int> other_unit);

@@ -48,6 +48,7 @@ ReplyKind match_reply(std::span<const std::uint8_t> pdu, const ModbusRequest& re
                         modbus_strerror(MODBUS_ENOBASE + pdu[1]));
     const bool busy = pdu[1] == MODBUS_EXCEPTION_ACKNOWLEDGE || pdu[1] == MODBUS_EXCEPTION_SLAVE_OR_SERVER_BUSY;
     if (pdu[1] == MODBUS_EXCEPTION_ILLEGAL_FUNCTION) return ReplyKind::unknown;
+    if (pdu[1] == MODBUS_EXCEPTION_ILLEGAL_DATA_ADDRESS) return ReplyKind::absent;
     if (!busy) return ReplyKind::refused;
     fault += "; end what keeps it busy";
     return ReplyKind::busy;

@@ -34,11 +34,12 @@ enum class ReplyKind : std::uint8_t {
   foreign,  ///< answers another request, such as an earlier one whose reply came late
   refused,  ///< the device refuses the request
   unknown,  ///< the device does not know the function
+  absent,   ///< the device has no such register
   busy,     ///< the device refuses it for now
 };
 
 /// Compares a reply with its request. With `good` the registers that were read are in `registers`, which has room for
-/// request.count of them; with `refused`, `unknown` and `busy` the reason is in `fault`.
+/// request.count of them; with every kind of refusal the reason is in `fault`.
 [[nodiscard]] ReplyKind match_reply(std::span<const std::uint8_t> pdu, const ModbusRequest& request,
                                     std::span<std::uint16_t> registers, std::string& fault);
 

@@ -20,6 +20,7 @@ enum class LinkEvent : std::uint8_t {
   damaged,  ///< a reply that cannot be used; the link stays open
   refused,  ///< the device answered with an exception
   unknown,  ///< the device answered that it does not know the function
+  absent,   ///< the device answered that it has no such register
   busy,     ///< the device answered that it is busy
   broken,   ///< the link is closed
 };

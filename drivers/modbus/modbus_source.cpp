@@ -234,10 +234,9 @@ void ModbusSource::records_read() {
 void ModbusSource::transaction_failed(LinkEvent event) {
   if (event == LinkEvent::broken) return link_lost(link_->fault());
   const Purpose purpose = std::exchange(transaction_.purpose, Purpose::none);
-  if (event == LinkEvent::unknown) {
-    if (adapt(purpose)) return;
-    event = LinkEvent::refused;
-  }
+  const bool lacking = event == LinkEvent::unknown || event == LinkEvent::absent;
+  if (lacking && adapt(purpose, event)) return;
+  if (lacking) event = LinkEvent::refused;
   note_fault(status_, link_->fault());
   if (event == LinkEvent::damaged) ++status_.damaged;
   if (event == LinkEvent::refused || event == LinkEvent::busy) return request_refused(purpose, event);
@@ -252,12 +251,15 @@ void ModbusSource::transaction_failed(LinkEvent event) {
   }
 }
 
-/// The device does not know the function of a request. False where there is no other way to what it was for.
-bool ModbusSource::adapt(Purpose purpose) {
+/// The device lacks the function or register of a request. False where there is no other way to what it was for.
+bool ModbusSource::adapt(Purpose purpose, LinkEvent event) {
   CmmMap& map = settings_.map;
   const bool writes = purpose == Purpose::acknowledge || purpose == Purpose::command;
+  // A register that was there when the session began is waited for.
+  if (event == LinkEvent::absent && !(writes && opening_)) return false;
   NumberField& written = purpose == Purpose::command ? map.command : map.acknowledge;
-  const std::vector<std::string> remarks = writes ? give_up_writing(written) : read_holding_instead(map);
+  const std::vector<std::string> remarks =
+      writes ? give_up_writing(written, link_->fault()) : read_holding_instead(map);
   if (!map.command.present) next_command_ = 0;
   for (const std::string& remark : remarks) note_remark(status_, remark);
   return !remarks.empty();

@@ -51,7 +51,7 @@ class ModbusSource final : public ProbeSource {
   void records_read();
   void transaction_failed(LinkEvent event);
   void request_refused(Purpose purpose, LinkEvent event);
-  [[nodiscard]] bool adapt(Purpose purpose);
+  [[nodiscard]] bool adapt(Purpose purpose, LinkEvent event);
   void link_lost(const std::string& fault);
   [[nodiscard]] Failure open_error(const std::string& what);
   [[nodiscard]] bool write_now(const NumberField& field, std::uint32_t value, Clock::time_point until);

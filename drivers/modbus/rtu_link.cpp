@@ -166,6 +166,9 @@ LinkEvent RtuLink::receive(std::span<std::uint16_t> registers, Clock::time_point
       case ReplyKind::refused:
         static_cast<void>(quiet_after(LinkEvent::done));
         return LinkEvent::refused;
+      case ReplyKind::absent:
+        static_cast<void>(quiet_after(LinkEvent::done));
+        return LinkEvent::absent;
       case ReplyKind::unknown:
         static_cast<void>(quiet_after(LinkEvent::done));
         return LinkEvent::unknown;

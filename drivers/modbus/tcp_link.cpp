@@ -74,6 +74,8 @@ LinkEvent TcpLink::receive(std::span<std::uint16_t> registers, Clock::time_point
         return LinkEvent::refused;
       case ReplyKind::unknown:
         return LinkEvent::unknown;
+      case ReplyKind::absent:
+        return LinkEvent::absent;
       case ReplyKind::busy:
         return LinkEvent::busy;
       case ReplyKind::foreign:

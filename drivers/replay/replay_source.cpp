@@ -40,6 +40,7 @@ Failure ReplaySource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
   next_ = after;
   status_ = {};
   status_.link = LinkState::up;
+  status_.planned = static_cast<std::uint32_t>(points_.size());
   status_.run_id = digest(points_);
   status_.finished = next_ == points_.size();
   status_.last = static_cast<std::uint32_t>(next_);

@@ -15,8 +15,9 @@ enum class LinkState : std::uint8_t { connecting, up, lost };
 /// Published state of a source, for the panel and the log.
 struct SourceStatus {
   LinkState link = LinkState::connecting;
-  bool finished = false;   ///< the device said that the program is finished, and every record was delivered or given up
-  std::uint32_t last = 0;  ///< every record up to this sequence was handed out or is given up for good
+  bool finished = false;  ///< the device said that the program is finished, and every record was delivered or given up
+  std::uint32_t planned = 0;  ///< records that there will be in all; 0 = not known
+  std::uint32_t last = 0;     ///< every record up to this sequence was handed out or is given up for good
   bool device_fault = false;  ///< the device says that it has a fault
   bool behind = false;        ///< records are known to be there that have not been delivered yet
   std::uint32_t run_id = 0;  ///< of the device; another value means that numbering has restarted; without runs always 0

@@ -115,7 +115,8 @@ void Acquisition::follow_source() {
   const SourceStatus& status = source_.status();
   announce_changes(status);
   take_losses(status);
-  shared_.link_figures.publish({status.link, status.losses, shared_.requests.pause.load(), status.device_fault});
+  shared_.link_figures.publish(
+      {status.link, status.losses, shared_.requests.pause.load(), status.device_fault, status.planned});
   if (!status.finished || finish_taken_) return;
   finish_taken_ = true;
   StreamEvent finish{EventKind::finished, {}};

@@ -57,18 +57,20 @@ class Host {
   /// What the panel shows now: the session's own screen needs no connection. After start().
   [[nodiscard]] PanelState panel_state() const;
 
-  /// Gives what the session came to, while the panel is still served. Call once, after wait_for_end() was true.
+  /// Gives what the session came to. Call once, after wait_for_end() was true. The panel goes on showing it, as ended,
+  /// until the host is destroyed.
   [[nodiscard]] SessionResult finish();
 
-  /// Shows the verdict of the whole result on the panel; what was found beside the fit is known there alone. After
-  /// finish().
+  /// Shows the verdict of the whole result on the panel, and that the session has ended; what was found beside the fit
+  /// is known there alone. After finish().
   void conclude(const BladeVerdict& verdict);
+
+ private:
+  struct Running;
 
   /// Closes the panel once the clients that ask have seen its last state, after a second at the latest.
   void close_panel();
 
- private:
-  struct Running;
   HostSettings settings_;
   const DesignImage& design_;
   ProbeSource& source_;

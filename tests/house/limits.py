@@ -46,6 +46,10 @@ OTHER_VOCABULARIES = (
     # What the operator reads on the screen is written for people: "FAULT", "needs more points", "elsewhere".
     ("*", "tools/screen/words.cpp"),
     ("*", "tools/panel/panel_words.cpp"),
+    ("*", "firmware_bridge/host/panel/panel_texts.cpp"),
+    # What the panel's registers are called in their printed map.
+    ("*", "firmware_bridge/host/panel/panel_fields.cpp"),
+    ("*", "tools/panel/panel_map_text.cpp"),
     # The unit marks that read-outs print behind a number.
     ("DesignUnit", "drivers/dro/dro_line.cpp"),
     # The simulator shares nothing with the drivers that it tests, so that both cannot be wrong in the same way.

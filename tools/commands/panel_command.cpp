@@ -12,6 +12,7 @@
 #include "tools/files/exit_codes.hpp"
 #include "tools/files/tool_error.hpp"
 #include "tools/panel/panel_display.hpp"
+#include "tools/panel/panel_map_text.hpp"
 
 namespace bladefit {
 namespace {
@@ -41,9 +42,19 @@ int show_panel(const std::string& address) {
 
 void add_panel_command(CLI::App& app, int& exit_code) {
   const auto address = std::make_shared<std::string>("127.0.0.1:1503");
+  const auto map = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("panel", "show a running session live; Ctrl-C ends");
   command->add_option("--connect", *address, "HOST:PORT of the session's panel")->capture_default_str();
-  command->callback([address, &exit_code] { exit_code = show_panel(*address); });
+  command->add_option("--map", *map, "print the register map that the panel serves, as csv or markdown, and end")
+      ->check(CLI::IsMember({"csv", "markdown"}));
+  command->callback([address, map, &exit_code] {
+    if (map->empty()) {
+      exit_code = show_panel(*address);
+    } else {
+      fmt::print("{}", *map == "csv" ? panel_map_csv() : panel_map_markdown());
+      exit_code = 0;
+    }
+  });
 }
 
 }  // namespace bladefit

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <thread>
 
 #include "drivers/make_source.hpp"
 #include "drivers/source_registry.hpp"
@@ -79,6 +80,18 @@ void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
   }
 }
 
+/// Keeps the panel of an ended session as long as the settings say, for those who look at it; a signal ends it.
+void linger(const RunPlan& plan, const StopFlag& stop, std::uint16_t port, std::FILE* words) {
+  if (plan.linger.count() == 0 || stop.requested()) return;
+  const std::string text =
+      fmt::format("The panel at {}:{} shows the result for {} s; Ctrl-C ends\n", plan.host.panel.host, port,
+                  std::chrono::duration<double>(plan.linger).count());
+  std::fputs(text.c_str(), words);
+  std::fflush(words);
+  const auto until = std::chrono::steady_clock::now() + plan.linger;
+  while (!stop.requested() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(kTurn);
+}
+
 std::string ending(const SessionResult& session) {
   switch (session.end) {
     case SessionEnd::finished:
@@ -139,7 +152,6 @@ int conclude(const RunPlan& plan, Host& host, std::FILE* words) {
   for (const std::string& path : files.paths) text += path == "-" ? "" : fmt::format("Written: {}\n", path);
   const bool told = tell(words, text, plan);
   for (const Failure& failure : files.failures) say(failure.message);
-  host.close_panel();
   if (session.error) return exit_code_of(session.error);
   return told && files.failures.empty() ? exit_code_of(result) : kDeviceFailure;
 }
@@ -172,7 +184,9 @@ int run(const RunFlags& flags) {
   std::fflush(words);
   watch(host, plan, stop);
   notices.flush();
-  return conclude(plan, host, words);
+  const int exit_code = conclude(plan, host, words);
+  linger(plan, stop, host.panel_port(), words);
+  return exit_code;
 }
 
 void add_session_options(CLI::App& command, RunFlags& flags) {

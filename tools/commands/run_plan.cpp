@@ -66,6 +66,8 @@ PanelServerSettings plan_panel(const PanelSettings& file, const std::string& fla
   if (file.port) panel.port = *file.port;
   if (file.commands) panel.commands = *file.commands;
   if (file.allow) panel.allow = *file.allow;
+  if (file.low_word_first) panel.format.low_word_first = *file.low_word_first;
+  if (file.infinity) panel.format.infinity = static_cast<float>(*file.infinity);
   if (!flag.empty() && !parse_address(flag, panel.host, panel.port)) {
     throw ToolError(fmt::format("--panel {}: is no address; use HOST:PORT, for example 127.0.0.1:1503", flag));
   }
@@ -131,6 +133,7 @@ RunPlan plan_run(const RunFlags& flags) {
   plan.host.axis = plan.fit.axis;
   plan.host.session_directory = session.session.value_or(new_session_name());
   plan.host.panel = plan_panel(session.panel, flags.panel);
+  plan.linger = std::chrono::milliseconds(std::llround(session.panel.linger.value_or(0) * kMillisecondsPerSecond));
   plan.host.idle = idle_of(session);
   const bool recording = std::holds_alternative<ReplaySettings>(plan.source);
   plan.host.end_when_finished = recording || plan.headless || session.until_idle.has_value();

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct RunPlan {
   SourceSettings source;
   HostSettings host;
   bool headless = false;
+  std::chrono::milliseconds linger{0};  ///< that the panel stays with the result
   std::string json;
 };
 

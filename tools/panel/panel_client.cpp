@@ -46,7 +46,7 @@ Failure PanelClient::read(PanelState& state) {
                                       address(), modbus_strerror(reason)));
   }
   std::array<std::uint16_t, kExtensionRegisters> extension{};
-  const bool extended = modbus_read_input_registers(context_.get(), kPlaceBase, static_cast<int>(extension.size()),
+  const bool extended = modbus_read_input_registers(context_.get(), kExtensionBase, static_cast<int>(extension.size()),
                                                     extension.data()) == static_cast<int>(extension.size());
   const std::span<const std::uint16_t> known =
       extended ? std::span<const std::uint16_t>(extension) : std::span<const std::uint16_t>();

@@ -38,30 +38,6 @@ std::string fit_word(std::uint16_t fit_status) {
   return word_at(kWords, fit_status);
 }
 
-std::string verdict_words(const PanelState& state) {
-  static constexpr std::array<std::string_view, 4> kWords = {"NOT JUDGED", "IN TOLERANCE", "OUT OF TOLERANCE",
-                                                             "NOT DECIDED"};
-  static constexpr std::array<std::pair<PanelReason, std::string_view>, 9> kReasons = {
-      {{kReasonNotConverged, "fit not at rest"},
-       {kReasonUnderdetermined, "needs more points"},
-       {kReasonUnproven, "feet not proven"},
-       {kReasonPointsMissing, "points missing"},
-       {kReasonZoneNotProbed, "leading edge not probed"},
-       {kReasonOpen, "not finished"},
-       {kReasonLinkLost, "link lost"},
-       {kReasonWrongWorld, "wrong units or mirrored"},
-       {kReasonAmbiguous, "another fit may be as good"}}};
-  std::string text = word_at(kWords, static_cast<std::size_t>(state.verdict));
-  const char* joint = ": ";
-  for (const auto& [bit, word] : kReasons) {
-    if ((state.reasons & bit) == 0) continue;
-    text += joint;
-    text += word;
-    joint = ", ";
-  }
-  return text;
-}
-
 std::string state_word(PointState state) {
   static constexpr std::array<std::string_view, 5> kWords = {"pending", "in", "OUT", "does not count", "undecided"};
   return word_at(kWords, static_cast<std::size_t>(state));

@@ -8,8 +8,6 @@ namespace bladefit {
 /// Panel values in the operator's words. A value that the map does not define becomes "?".
 [[nodiscard]] std::string session_word(SessionState state);
 [[nodiscard]] std::string fit_word(std::uint16_t fit_status);
-/// "NOT DECIDED: needs more points, not finished".
-[[nodiscard]] std::string verdict_words(const PanelState& state);
 [[nodiscard]] std::string state_word(PointState state);
 [[nodiscard]] std::string action_word(Action action);
 [[nodiscard]] std::string region_word(Region region);

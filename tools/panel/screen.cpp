@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware_bridge/host/panel/panel_texts.hpp"
 #include "tools/panel/panel_words.hpp"
 #include "tools/panel/styled_line.hpp"
 

@@ -1,103 +1,100 @@
 #include "firmware_bridge/host/panel/panel_map.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <utility>
+
+#include "firmware_bridge/host/panel/panel_fields.hpp"
 
 namespace bladefit {
 namespace {
 
 constexpr std::uint32_t kLowWord = 0xFFFF;
+constexpr double kLargestTolerance_mm = 1000;  ///< what is shown as larger stands for infinity
 
-/// Walks over registers and writes fields of one or two words, high word first.
-class Writer {
- public:
-  explicit Writer(std::span<std::uint16_t> registers) : registers_(registers) {}
-  Writer& at(std::size_t address) { return next_ = address, *this; }
-  template <typename Value>
-  Writer& word(Value value) {
-    return registers_[next_++] = static_cast<std::uint16_t>(value), *this;
-  }
-  Writer& wide(std::uint32_t value) { return word(value >> 16U).word(value & kLowWord); }
-  Writer& real(float value) { return wide(std::bit_cast<std::uint32_t>(value)); }
+using Registers = std::span<std::uint16_t>;
 
- private:
-  std::span<std::uint16_t> registers_;
-  std::size_t next_ = 0;
-};
-
-/// The way back.
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint16_t> registers) : registers_(registers) {}
-  Reader& at(std::size_t address) { return next_ = address, *this; }
-  template <typename Value>
-  Reader& word(Value& value) {
-    return value = static_cast<Value>(registers_[next_++]), *this;
-  }
-  Reader& wide(std::uint32_t& value) {
-    std::uint32_t low = 0;
-    word(value).word(low);
-    return value = (value << 16U) | low, *this;
-  }
-  Reader& real(float& value) {
-    std::uint32_t bits = 0;
-    wide(bits);
-    return value = std::bit_cast<float>(bits), *this;
-  }
-
- private:
-  std::span<const std::uint16_t> registers_;
-  std::size_t next_ = 0;
-};
-
-// The map is written once, for both ways: `walk` is a Writer and `state` constant, or a Reader and it is filled.
-
-template <typename Walk, typename State>
-void walk_counts(Walk& walk, State& state) {
-  walk.at(1).word(state.session).word(state.fit_status).word(state.alarms);
-  walk.wide(state.points).wide(state.leading_edge_points).wide(state.leading_edge_out);
-  walk.wide(state.rest_out).wide(state.rejected);
+void put_wide(Registers registers, std::size_t address, std::uint32_t value, const PanelFormat& format) {
+  const std::size_t low = format.low_word_first ? 0 : 1;
+  registers[address + low] = static_cast<std::uint16_t>(value & kLowWord);
+  registers[address + 1 - low] = static_cast<std::uint16_t>(value >> 16U);
 }
 
-template <typename Walk, typename State>
-void walk_fit(Walk& walk, State& state) {
-  walk.at(14).real(state.rms).real(state.leading_edge_rms);
-  walk.real(state.worst_leading_edge).wide(state.worst_leading_edge_sequence);
-  walk.real(state.worst_rest).wide(state.worst_rest_sequence);
-  for (auto& value : state.pose) walk.real(value);
-}
-
-template <typename Walk, typename State>
-void walk_last(Walk& walk, State& state) {
-  walk.at(38).wide(state.last_sequence).real(state.last_distance);
-  walk.word(state.last_state).word(state.last_action).word(state.last_region);
-  walk.real(state.leading_edge_tolerance).real(state.rest_tolerance).real(state.push_latency_us);
-  walk.word(state.heartbeat).real(state.smallest_feasible).word(state.determined);
-}
-
-template <typename Walk, typename State>
-void walk_newest(Walk& walk, State& state) {
-  walk.at(60);
-  for (auto& place : state.newest) walk.wide(place.sequence).real(place.distance);
-}
-
-template <typename Walk, typename State>
-void walk_extension(Walk& walk, State& state) {
-  for (auto& place : state.newest) {
-    walk.word(place.patch).real(place.u).real(place.v).real(place.radius).word(place.action);
+/// ASCII, the first character of a register in its high byte; what is no ASCII becomes '?'.
+void put_text(Registers registers, std::size_t address, const std::string& text) {
+  const std::size_t length = std::min<std::size_t>(text.size(), 2U * kTextRegisters);
+  for (std::size_t index = 0; index < length; ++index) {
+    const char character = text[index];
+    const auto byte = static_cast<std::uint8_t>(character >= ' ' && character <= '~' ? character : '?');
+    registers[address + index / 2] |= static_cast<std::uint16_t>(index % 2 == 0 ? byte << 8U : byte);
   }
-  walk.word(state.improving);
-  for (auto& sequence : state.support) walk.wide(sequence);
-  walk.word(state.verdict).word(state.reasons);
 }
 
-template <typename Walk, typename State>
-void walk_registers(Walk& walk, State& state) {
-  walk_counts(walk, state);
-  walk_fit(walk, state);
-  walk_last(walk, state);
-  walk_newest(walk, state);
+/// Units in the last place of a twin; lengths in mm and angles in rad have a million, or a thousand, in one.
+double counts_of(PanelUnit unit) {
+  switch (unit) {
+    case PanelUnit::millimetre:
+      return 1e3;
+    case PanelUnit::microsecond:
+      return 1;
+    case PanelUnit::radian:
+    case PanelUnit::none:
+      break;
+  }
+  return 1e6;
+}
+
+std::uint32_t twin_of(float value, PanelUnit unit) {
+  constexpr double kLeast = std::numeric_limits<std::int32_t>::min(), kMost = std::numeric_limits<std::int32_t>::max();
+  const double counts = std::clamp(std::round(static_cast<double>(value) * counts_of(unit)), kLeast, kMost);
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(counts));
+}
+
+void put_field(Registers registers, const PanelField& field, const PanelState& state, const PanelFormat& format) {
+  for (std::size_t item = 0; item < field.items; ++item) {
+    const std::size_t address = field.address + item * field.stride;
+    const bool has_twin = address < kPanelRegisters;
+    std::uint32_t bits = field.get(state, item);
+    if (field.type == PanelType::word) {
+      registers[address] = static_cast<std::uint16_t>(bits);
+      if (has_twin) registers[kTwinBase + address] = registers[address];
+      continue;
+    }
+    std::uint32_t twin = bits;
+    if (field.type == PanelType::real) {
+      const auto value = std::bit_cast<float>(bits);
+      const float shown = std::isfinite(value) ? value : format.infinity;
+      bits = std::bit_cast<std::uint32_t>(shown);
+      twin = twin_of(shown, field.unit);
+    }
+    put_wide(registers, address, bits, format);
+    if (has_twin) put_wide(registers, kTwinBase + address, twin, format);
+  }
+}
+
+/// Sets the fields that lie in `block`, whose first register has the address `base`.
+void take_fields(std::span<const std::uint16_t> block, std::size_t base, bool low_word_first, PanelState& state) {
+  for (const PanelField& field : panel_fields()) {
+    if (field.set == nullptr || field.address < base || field.address >= base + block.size()) continue;
+    for (std::size_t item = 0; item < field.items; ++item) {
+      const std::size_t place = field.address + item * field.stride - base;
+      std::uint32_t bits = block[place];
+      if (field.type != PanelType::word) {
+        const std::size_t high = low_word_first ? 1 : 0;
+        bits = static_cast<std::uint32_t>(block[place + high]) << 16U | block[place + 1 - high];
+      }
+      field.set(state, item, bits);
+    }
+  }
+}
+
+/// A tolerance that is none, as a sentinel shows it.
+void take_back_infinity(float& tolerance) {
+  if (!(tolerance > 0) || static_cast<double>(tolerance) >= kLargestTolerance_mm)
+    tolerance = std::numeric_limits<float>::infinity();
 }
 
 }  // namespace
@@ -124,33 +121,38 @@ std::uint16_t reason_bits(const Reasons& reasons) {
   return static_cast<std::uint16_t>(bits);
 }
 
-PanelImage encode_panel(const PanelState& state) {
+PanelImage encode_panel(const PanelState& state, const PanelFormat& format) {
   PanelImage image;
-  Writer registers(image.registers);
-  walk_registers(registers.word(kPanelMapVersion), state);
-  Writer extension(image.extension);
-  walk_extension(extension, state);
-  extension.real(kPanelTestReal).wide(kPanelTestWord);
+  std::size_t text = 0;
+  for (const PanelField& field : panel_fields()) {
+    if (field.type == PanelType::text) {
+      put_text(image.registers, field.address, state.texts[text++]);
+    } else {
+      put_field(image.registers, field, state, format);
+    }
+  }
   image.discrete = {state.leading_edge_out > 0,
                     state.leading_edge_out + state.rest_out > 0,
                     (state.alarms & kAlarmLinkLost) != 0,
                     state.fit_determined,
                     state.verdict == BladeState::in_tolerance,
-                    state.verdict == BladeState::not_decided};
+                    state.verdict == BladeState::not_decided,
+                    state.ended};
   return image;
 }
 
 bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers, std::span<const std::uint16_t> extension,
                   PanelState& state) {
-  Reader reader(registers);
-  std::uint16_t version = 0;
-  reader.word(version);
-  if (version != kPanelMapVersion) return false;
-  state.newest.fill({});
-  walk_registers(reader, state);
+  if (registers[0] != kPanelMapVersion) return false;
+  constexpr std::size_t kTestWord = 285 - kExtensionBase;
   state.has_extension = extension.size() == kExtensionRegisters;
-  Reader extension_reader(extension);
-  if (state.has_extension) walk_extension(extension_reader, state);
+  const bool low_word_first = state.has_extension && extension[kTestWord] == (kPanelTestWord & kLowWord);
+  take_fields(registers, 0, low_word_first, state);
+  if (!state.has_extension) return true;
+  take_fields(extension, kExtensionBase, low_word_first, state);
+  if ((state.reasons & kReasonNoTolerance) == 0) return true;
+  take_back_infinity(state.leading_edge_tolerance);
+  take_back_infinity(state.rest_tolerance);
   return true;
 }
 

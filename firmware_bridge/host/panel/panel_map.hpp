@@ -2,53 +2,30 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "core/inspection/blade_verdict.hpp"
 
 namespace bladefit {
 
-/// Panel register map v1, input registers (function code 4), high word first, float32 in mm and rad.
-///
-///   0      map version = 1
-///   1      SessionState
-///   2      fit status: 0 underdetermined, 1 tracking, 2 converged, 3 infeasible
-///   3      alarm bits, see PanelAlarm
-///   4-5    points                                   6-7    leading-edge points
-///   8-9    leading-edge points out of tolerance     10-11  other points out of tolerance
-///   12-13  rejected points                          14-15  RMS
-///   16-17  leading-edge RMS                         18-19  worst leading-edge distance, signed; 20-21 its sequence
-///   22-23  worst distance on the rest; 24-25 its sequence
-///   26-37  tx, ty, tz, psi, theta, phi
-///   38-39  last sequence; 40-41 its distance; 42 its state; 43 its action; 44 its region
-///   45-46  leading-edge tolerance; 47-48 tolerance of the rest (infinity: not judged)
-///   49-50  float32 99th percentile of the time that a push takes [us]
-///   51     heartbeat, +1 a second
-///   52-53  smallest feasible leading-edge tolerance, live, of the modes min_tolerance and constrained; else 0
-///   54     determined degrees of freedom
-///   60-91  the 8 newest leading-edge points out of tolerance, newest first: uint32 sequence, float32 distance
-///
-/// Extension, in registers that v1 leaves free; a client must bear its absence (exception 2): for the k-th of those 8
-/// points, from 200 + 8 k: uint16 patch, float32 u, float32 v, float32 distance from the shaft axis, uint16 action.
-///   264      uint16 1: the optimum of the mode still improves, or not every point was looked at since it did
-///   265-280  8 uint32: sequences of the points that prove the smallest feasible tolerance; 0 = no more
-///   281      verdict on the blade: 0 not judged, 1 in tolerance, 2 out of tolerance, 3 not decided
-///   282      its reasons, see PanelReason
-///   283-284  float32 12345.678, 285-286 uint32 0x12345678: they tell a wrong word order
-///
-/// Discrete inputs (function code 2): 0 leading edge out, 1 any point out, 2 link lost, 3 fit determined, 4 in
-/// tolerance, 5 not decided; 6 and 7 are 0.
-/// Coils (5, 15), refused unless commands are enabled: 0 start, 1 stop, 2 reset, 3 acknowledge the alarm.
+// Panel register map v1: input registers (function 4), the same as holding registers (function 3); float32 in mm and
+// rad. panel_fields.hpp says what stands where, and `bladefit panel --map` prints it. Registers 0..91 are v1; the
+// others are an extension, whose absence (exception 2) a client must bear. What no field has reads 0.
 inline constexpr std::uint16_t kPanelMapVersion = 1;
-inline constexpr std::size_t kPanelRegisters = 92;
+inline constexpr std::size_t kPanelRegisters = 92;  ///< of v1, from 0
 inline constexpr std::size_t kPanelPlaces = 8;
-inline constexpr std::uint16_t kPlaceBase = 200;
-inline constexpr std::size_t kPlaceRegisters = 8;
+inline constexpr std::uint16_t kExtensionBase = 200;
+inline constexpr std::size_t kExtensionRegisters = 90;
 inline constexpr std::size_t kPanelSupport = 8;
-inline constexpr std::size_t kExtensionRegisters = kPanelPlaces * kPlaceRegisters + 1 + 2 * kPanelSupport + 6;
+inline constexpr std::uint16_t kTextBase = 300;
+inline constexpr std::size_t kPanelTexts = 3;
+inline constexpr std::uint16_t kTextRegisters = 40;     ///< of each text, two characters a register
+inline constexpr std::uint16_t kTwinBase = 500;         ///< registers 0..91 again, every float32 as int32
+inline constexpr std::size_t kPanelMapRegisters = 600;  ///< that can be read
+inline constexpr std::size_t kPanelDiscreteInputs = 16;
+inline constexpr std::size_t kPanelCoils = 4;
 inline constexpr float kPanelTestReal = 12345.678F;
 inline constexpr std::uint32_t kPanelTestWord = 0x12345678;
-inline constexpr std::size_t kPanelDiscreteInputs = 8;
-inline constexpr std::size_t kPanelCoils = 4;
 
 enum class SessionState : std::uint16_t {
   idle = 0,
@@ -78,8 +55,9 @@ enum PanelReason : std::uint16_t {
   kReasonZoneNotProbed = 16,
   kReasonOpen = 32,  ///< points are pending or undecided, or the program is not finished
   kReasonLinkLost = 64,
-  kReasonWrongWorld = 128,  ///< wrong units, or a mirrored blade
-  kReasonAmbiguous = 256,   ///< another fit may be as good
+  kReasonWrongWorld = 128,   ///< wrong units, or a mirrored blade
+  kReasonAmbiguous = 256,    ///< another fit may be as good
+  kReasonNoTolerance = 512,  ///< a region is not judged: its tolerance is infinite
 };
 
 /// The bits that stand for a set of reasons.
@@ -120,23 +98,32 @@ struct PanelState {
   bool improving = false;
   std::array<std::uint32_t, kPanelSupport> support{};  ///< points that prove the smallest tolerance; 0 = no more
   BladeState verdict = BladeState::not_decided;
-  std::uint16_t reasons = 0;    ///< PanelReason bits
-  bool fit_determined = false;  ///< every degree of freedom that is not locked; not in a register
+  std::uint16_t reasons = 0;                   ///< PanelReason bits
+  std::uint32_t planned = 0;                   ///< points that will come; 0 = not known
+  bool ended = false;                          ///< the session is over, what is shown is its result
+  std::array<std::string, kPanelTexts> texts;  ///< verdict, worst place, what to do
+  bool fit_determined = false;                 ///< every degree of freedom that is not locked; not in a register
   bool has_extension =
       false;  ///< whether `verdict`, `improving`, `support` and patch, u, v, radius, action of `newest` are known
   std::array<PanelPlace, kPanelPlaces> newest{};
 };
 
+/// How the panel's numbers are sent.
+struct PanelFormat {
+  bool low_word_first = false;  ///< of the two registers of a number
+  float infinity = 0;  ///< in place of what is not finite, such as the tolerance of a region that is not judged
+};
+
 /// What the server answers from.
 struct PanelImage {
-  std::array<std::uint16_t, kPanelRegisters> registers{};
-  std::array<std::uint16_t, kExtensionRegisters> extension{};
+  std::array<std::uint16_t, kPanelMapRegisters> registers{};
   std::array<bool, kPanelDiscreteInputs> discrete{};
 };
 
-[[nodiscard]] PanelImage encode_panel(const PanelState& state);
+[[nodiscard]] PanelImage encode_panel(const PanelState& state, const PanelFormat& format);
 
-/// Reads a state back from registers 0..91, and from 200..286 or an empty span where the server has no extension.
+/// Reads a state back from registers 0..91, and from kExtensionRegisters from kExtensionBase on, or an empty span where
+/// the server has no extension; the texts are not read. Whichever word comes first is seen from the test number.
 /// False when the map is of another version; then `state` is as before.
 [[nodiscard]] bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers,
                                 std::span<const std::uint16_t> extension, PanelState& state);

@@ -21,8 +21,6 @@ namespace {
 constexpr std::size_t kHeaderSize = 7;
 constexpr std::size_t kLengthOffset = 4;
 constexpr std::size_t kUnitOffset = 6;
-constexpr std::uint8_t kRefusedFlag = 0x80;
-constexpr std::uint8_t kNoSuchUnit = 11;
 constexpr int kAnswersPerTurn = 8;
 constexpr std::chrono::milliseconds kTurn{2};
 constexpr std::chrono::seconds kAsksNowAndThen{2};
@@ -46,8 +44,6 @@ std::uint16_t port_of(int descriptor) {
   // The port stands at the same place in both kinds of address.
   return ntohs(reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
 }
-
-bool unit_is_ours(std::uint8_t unit) { return unit == 0 || unit == 1 || unit == 255; }
 
 }  // namespace
 
@@ -194,10 +190,8 @@ bool PanelServer::answer(Client& client, const PanelImage& image,
     if (client.received.size() - used < size) break;
     PanelCommands commands;
     const std::span<const std::uint8_t> request(header + kHeaderSize, length - 1);
-    const std::vector<std::uint8_t> pdu =
-        unit_is_ours(header[kUnitOffset])
-            ? answer_panel_request(request, image, settings_.commands, commands)
-            : std::vector<std::uint8_t>{static_cast<std::uint8_t>(request[0] | kRefusedFlag), kNoSuchUnit};
+    // Over TCP the panel is the only unit at its address, whichever one is asked; the answer names the same.
+    const std::vector<std::uint8_t> pdu = answer_panel_request(request, image, settings_.commands, commands);
     client.unsent.insert(client.unsent.end(), header, header + kLengthOffset);
     client.unsent.push_back(static_cast<std::uint8_t>((pdu.size() + 1) >> 8U));
     client.unsent.push_back(static_cast<std::uint8_t>((pdu.size() + 1) & 0xFFU));

@@ -14,6 +14,7 @@ struct PanelServerSettings {
   std::string host = "127.0.0.1";    ///< address to listen at; Modbus has no authentication, so loopback by default
   std::uint16_t port = 1503;         ///< 0 = any free port
   bool commands = false;             ///< whether clients may press the coils
+  PanelFormat format{};              ///< of the numbers
   std::vector<std::string> allow{};  ///< numeric addresses that may connect; empty = every one that reaches `host`
 };
 
@@ -35,6 +36,9 @@ class PanelServer {
 
   /// The port listened at.
   [[nodiscard]] std::uint16_t port() const { return port_; }
+
+  /// How the numbers are to be sent.
+  [[nodiscard]] const PanelFormat& format() const { return settings_.format; }
 
   /// Waits until a client wants something, `wakeup_descriptor` becomes readable, or `timeout` is over. Clients wait for
   /// kTurn after those before them were served: however many ask without a pause, they leave the processor to others.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_bridge/host/panel/panel_texts.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -22,6 +24,11 @@ PanelPlace place_of(const Verdict& verdict, const ShaftAxis& axis) {
           .action = verdict.action};
 }
 
+/// How far off in tolerances; 0 where there is no point, or no tolerance.
+double over_tolerance(const Verdict* verdict) {
+  return verdict != nullptr ? std::abs(verdict->foot.distance) / verdict->tolerance_mm : 0;
+}
+
 }  // namespace
 
 Publication::Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, PanelServer& server, HostShared& shared)
@@ -30,7 +37,8 @@ Publication::Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, P
 void Publication::run() {
   const auto on_commands = [this](const PanelCommands& commands) { follow(commands); };
   while (true) {
-    const bool last_turn = shared_.panel_closed.load() && shared_.fit_done.load();
+    const bool over = shared_.fit_done.load();
+    const bool last_turn = over && shared_.panel_closed.load();
     shared_.to_publication.wakeup.clear();
     if (take_news() || last_turn || pressed_ || Clock::now() - updated_ >= kLongestWait) show();
     server_.serve(image_, on_commands);
@@ -54,9 +62,10 @@ void Publication::show() {
   updated_ = Clock::now();
   const std::lock_guard lock(common_.mutex);
   update_state();
+  state_.ended = common_.concluded.has_value();
   common_.shown = state_;
   common_.shown.has_extension = true;
-  image_ = encode_panel(state_);
+  image_ = encode_panel(state_, server_.format());
 }
 
 PanelState Publication::shown() {
@@ -127,6 +136,8 @@ void Publication::update_counts() {
   state_.worst_leading_edge_sequence = (edge != nullptr ? *edge : none).sequence;
   state_.worst_rest = to_float((rest != nullptr ? *rest : none).foot.distance);
   state_.worst_rest_sequence = (rest != nullptr ? *rest : none).sequence;
+  const Verdict* const worst = over_tolerance(rest) > over_tolerance(edge) || edge == nullptr ? rest : edge;
+  state_.texts[1] = worst_words(worst, worst != nullptr ? axis_.radius_of(worst->foot.point) : 0);
 }
 
 void Publication::update_fit() {
@@ -169,7 +180,12 @@ void Publication::update_verdict() {
   state_.verdict = verdict.state;
   state_.reasons = reason_bits(verdict.reasons);
   if (link_.link == LinkState::lost) state_.reasons |= kReasonLinkLost;
+  const bool both_judged = std::isfinite(tolerance_.leading_edge_mm) && std::isfinite(tolerance_.rest_mm);
+  if (!both_judged) state_.reasons |= kReasonNoTolerance;
   state_.fit_determined = report.determined == report.free;
+  state_.planned = link_.planned;
+  state_.texts[0] = verdict_words(state_);
+  state_.texts[2] = advice_words(state_);
 }
 
 void Publication::update_last() {

@@ -50,6 +50,7 @@ struct LinkFigures {
   std::uint64_t losses = 0;  ///< how often points were lost in the device
   bool paused = false;
   bool device_fault = false;
+  std::uint32_t planned = 0;  ///< points that the source will give; 0 = not known
 };
 
 /// All that the threads of a host share. Everything in it may be used by two threads at once in the way that its own

@@ -1,11 +1,13 @@
 // Device files of machines that differ from register map v1, and of read-outs.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "config/device_settings.hpp"
+#include "config/session_settings.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace bladefit {
@@ -59,6 +61,22 @@ TEST(DeviceFile, DescribesAReadOut) {
   EXPECT_EQ(dro.marks, "");
   ASSERT_EQ(load_device(kShippedDevices + "dro.toml", settings).message, "");
   EXPECT_FALSE(std::get<DroSettings>(settings).order_given) << "left to the pauses";
+}
+
+TEST(SessionFilePanel, SaysHowNumbersAreSentAndHowLongItStays) {
+  const DeviceText file("[panel]\nword_order = \"low_first\"\ninfinity = inf\nlinger = 3600\n");
+  SessionSettings settings;
+  ASSERT_EQ(load_session(file.path, settings).message, "");
+  EXPECT_EQ(settings.panel.low_word_first, true);
+  EXPECT_EQ(settings.panel.infinity, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(settings.panel.linger, 3600);
+  for (const auto& [text, error] :
+       {std::pair{"[panel]\ninfinity = nan\n", ":2: key 'panel.infinity': is no number"},
+        {"[panel]\nlinger = -1\n", ":2: key 'panel.linger': -1 is out of range"},
+        {"[panel]\nword_order = \"low\"\n", ":2: key 'panel.word_order': 'low' is none of: high_first, low_first"}}) {
+    const DeviceText bad(text);
+    EXPECT_EQ(load_session(bad.path, settings).message.find(bad.path + error), 0U) << error;
+  }
 }
 
 struct BadDevice {

@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
                     CutCase{"X    7.8702 Y   -3.9861 Z    7.5149", "X   34.9271 Y    3.9698 Z  -14.7101",
                             "X   34.9271 Y    3.9698 Z  -4.7101", "Z takes fewer characters"},
                     CutCase{"X 7.8702R Y 3.9861R Z 7.5149R", "X 34.9271R Y 3.9698R Z 4.7101R",
-                            "X 34.9271R Y 3.9698R Z 4.7101", "'' stands behind Z, not 'R'"},
+                            "X 34.9271R Y 3.9698R Z 4.7101", "the marks behind Z are \"\", not \"R\""},
                     CutCase{"X 7.8702 mm Y 3.9861 mm Z 7.5149 mm", "X 34.9271 mm Y 3.9698 mm Z 4.7101 mm",
                             "X 34.9271 Y 3.9698 mm Z 4.7101 mm", "its units may have been switched"}));
 

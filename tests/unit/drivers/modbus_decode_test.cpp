@@ -248,7 +248,7 @@ TEST(ModbusFrame, MatchesRepliesWithTheirRequest) {
   EXPECT_EQ(match({3, 4, 1, 2, 3, 4}, read), ReplyKind::foreign);
   EXPECT_EQ(match({4, 5, 1, 2, 3, 4}, read), ReplyKind::foreign);
   EXPECT_EQ(match({}, read), ReplyKind::foreign);
-  EXPECT_EQ(match({0x84, 2}, read), ReplyKind::refused);
+  EXPECT_EQ(match({0x84, 2}, read), ReplyKind::absent);
   EXPECT_NE(fault.find("Illegal data address"), std::string::npos) << fault;
   EXPECT_EQ(match({0x84, 4}, read), ReplyKind::refused);
   EXPECT_EQ(match({0x84, 1}, read), ReplyKind::unknown);

@@ -97,8 +97,23 @@ TEST(ModbusHabits, ADeviceThatTakesNoWritesIsReadAndToldOfOnce) {
     EXPECT_EQ(collect_checked(*source, 1), counted(newest, newest));
     source->acknowledge(newest);
   }
-  EXPECT_EQ(remarks_with(*source, "the function that writes register 0"), 1);
-  EXPECT_EQ(remarks_with(*source, "the function that writes register 2"), 1);
+  EXPECT_EQ(remarks_with(*source, "refuses function 16 at register 0: Illegal function; nothing is written there"), 1);
+  EXPECT_EQ(remarks_with(*source, "refuses function 6 at register 2: Illegal function; nothing is written there"), 1);
+}
+
+TEST(ModbusHabits, ADeviceWithoutTheRegistersToWriteToIsReadAndToldOfOnce) {
+  TcpMachine machine;
+  machine.registers.refuse(16, 2, 1000);
+  const auto source = make_source(machine.settings());
+  ASSERT_EQ(source->open(0, 0).message, "");
+  for (std::uint32_t newest = 1; newest <= 3; ++newest) {
+    machine.registers.probe(newest);
+    EXPECT_EQ(collect_checked(*source, 1), counted(newest, newest));
+    source->acknowledge(newest);
+  }
+  EXPECT_EQ(remarks_with(*source, "refuses function 16 at register 0: Illegal data address"), 1);
+  EXPECT_EQ(machine.registers.refusals(), 1) << "it is not asked again";
+  EXPECT_EQ(machine.registers.holding(2), 1) << "the command is given all the same";
 }
 
 TEST(ModbusHabits, MissingRegistersToWriteToAreToldOfOnce) {

@@ -1,12 +1,12 @@
-// The panel map, register by register, and the answers to requests.
+// The panel map, register by register.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
-#include <random>
 
 #include "firmware_bridge/host/panel/panel_map.hpp"
-#include "firmware_bridge/host/panel/panel_protocol.hpp"
+#include "firmware_bridge/host/panel/panel_texts.hpp"
 #include "tests/support/panel_state.hpp"
 
 namespace bladefit {
@@ -19,8 +19,22 @@ std::uint32_t wide(const PanelImage& image, std::size_t address) {
 }
 float real(const PanelImage& image, std::size_t address) { return std::bit_cast<float>(wide(image, address)); }
 
+std::span<const std::uint16_t, kPanelRegisters> first_registers(const PanelImage& image) {
+  return std::span(image.registers).first<kPanelRegisters>();
+}
+std::span<const std::uint16_t> extension_of(const PanelImage& image) {
+  return std::span(image.registers).subspan(kExtensionBase, kExtensionRegisters);
+}
+
+/// The first discrete inputs as given, the others off.
+std::array<bool, kPanelDiscreteInputs> first_inputs(std::initializer_list<bool> inputs) {
+  std::array<bool, kPanelDiscreteInputs> all{};
+  std::copy(inputs.begin(), inputs.end(), all.begin());
+  return all;
+}
+
 TEST(BridgePanelMap, PutsCountsWhereTheContractSays) {
-  const PanelImage image = encode_panel(known_state());
+  const PanelImage image = encode_panel(known_state(), {});
   EXPECT_EQ(image.registers[0], 1);
   EXPECT_EQ(image.registers[1], 3);
   EXPECT_EQ(image.registers[2], 1);
@@ -33,7 +47,7 @@ TEST(BridgePanelMap, PutsCountsWhereTheContractSays) {
 }
 
 TEST(BridgePanelMap, PutsTheFitWhereTheContractSays) {
-  const PanelImage image = encode_panel(known_state());
+  const PanelImage image = encode_panel(known_state(), {});
   EXPECT_EQ(real(image, 14), 0.014F);
   EXPECT_EQ(real(image, 16), 0.016F);
   EXPECT_EQ(real(image, 18), -0.018F);
@@ -47,7 +61,7 @@ TEST(BridgePanelMap, PutsTheFitWhereTheContractSays) {
 }
 
 TEST(BridgePanelMap, PutsTheLastPointAndTolerancesWhereTheContractSays) {
-  const PanelImage image = encode_panel(known_state());
+  const PanelImage image = encode_panel(known_state(), {});
   EXPECT_EQ(wide(image, 38), 70038U);
   EXPECT_EQ(real(image, 40), 0.040F);
   EXPECT_EQ(image.registers[42], 2);
@@ -62,12 +76,12 @@ TEST(BridgePanelMap, PutsTheLastPointAndTolerancesWhereTheContractSays) {
 }
 
 TEST(BridgePanelMap, PutsTheNewestPointsWhereTheContractSays) {
-  const PanelImage image = encode_panel(known_state());
+  const PanelImage image = encode_panel(known_state(), {});
   for (std::size_t place = 0; place < kPanelPlaces; ++place) {
     const auto number = static_cast<float>(place);
     EXPECT_EQ(wide(image, 60 + 4 * place), 80000U + place);
     EXPECT_EQ(real(image, 62 + 4 * place), 0.5F + number);
-    const auto* words = image.extension.data() + place * kPlaceRegisters;
+    const auto* words = image.registers.data() + 200 + 8 * place;
     const auto at = [words](std::size_t offset) {
       return std::bit_cast<float>(static_cast<std::uint32_t>(words[offset]) << 16U | words[offset + 1]);
     };
@@ -83,29 +97,139 @@ TEST(BridgePanelMap, NamesThePointsThatProveTheSmallestTolerance) {
   PanelState state;
   state.improving = true;
   state.support = {118, 70000, 3};
-  const PanelImage image = encode_panel(state);
-  EXPECT_EQ(image.extension[64], 1);
-  EXPECT_EQ(image.extension[66], 118);
-  EXPECT_EQ(image.extension[67], 1);
-  EXPECT_EQ(image.extension[68], 70000 - 65536);
+  const PanelImage image = encode_panel(state, {});
+  EXPECT_EQ(image.registers[264], 1);
+  EXPECT_EQ(image.registers[266], 118);
+  EXPECT_EQ(image.registers[267], 1);
+  EXPECT_EQ(image.registers[268], 70000 - 65536);
   PanelState read;
-  ASSERT_TRUE(decode_panel(image.registers, image.extension, read));
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
   EXPECT_TRUE(read.improving);
   EXPECT_EQ(read.support, state.support);
 }
 
 TEST(BridgePanelMap, DiscreteInputsFollowTheState) {
   PanelState state;
-  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 8>{false, false, false, false, false, true}));
+  EXPECT_EQ(encode_panel(state, {}).discrete, first_inputs({false, false, false, false, false, true}));
   state.rest_out = 1;
-  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 8>{false, true, false, false, false, true}));
+  EXPECT_EQ(encode_panel(state, {}).discrete, first_inputs({false, true, false, false, false, true}));
   state.leading_edge_out = 1;
   state.alarms = kAlarmLinkLost;
   state.fit_determined = true;
-  EXPECT_EQ(encode_panel(state).discrete, (std::array<bool, 8>{true, true, true, true, false, true}));
+  EXPECT_EQ(encode_panel(state, {}).discrete, first_inputs({true, true, true, true, false, true}));
   state.verdict = BladeState::in_tolerance;
-  EXPECT_TRUE(encode_panel(state).discrete[4]);
-  EXPECT_FALSE(encode_panel(state).discrete[5]);
+  EXPECT_TRUE(encode_panel(state, {}).discrete[4]);
+  EXPECT_FALSE(encode_panel(state, {}).discrete[5]);
+  EXPECT_FALSE(encode_panel(state, {}).discrete[6]);
+  state.ended = true;
+  EXPECT_TRUE(encode_panel(state, {}).discrete[6]);
+}
+
+TEST(BridgePanelMap, SaysWhetherTheSessionHasEndedAndWhatWasPlanned) {
+  PanelState state;
+  state.planned = 70287;
+  state.ended = true;
+  const PanelImage image = encode_panel(state, {});
+  EXPECT_EQ(wide(image, 287), 70287U);
+  EXPECT_EQ(image.registers[289], 1);
+  PanelState read;
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
+  EXPECT_EQ(read.planned, 70287U);
+  EXPECT_TRUE(read.ended);
+}
+
+TEST(BridgePanelMap, SendsTextsAsAscii) {
+  PanelState state;
+  state.texts = {"OUT", "point 7 \xC3\xA4", std::string(100, 'x')};
+  const PanelImage image = encode_panel(state, {});
+  EXPECT_EQ(image.registers[300], 'O' << 8 | 'U');
+  EXPECT_EQ(image.registers[301], 'T' << 8);
+  EXPECT_EQ(image.registers[302], 0);
+  EXPECT_EQ(image.registers[344], '?' << 8 | '?');
+  EXPECT_EQ(image.registers[419], 'x' << 8 | 'x');
+  EXPECT_EQ(image.registers[420], 0) << "a text stays in its place";
+}
+
+TEST(BridgePanelMap, TwinsAreWholeNumbers) {
+  PanelState state = known_state();
+  state.rest_tolerance = 1e9F;
+  state.worst_rest = -1e9F;
+  const PanelImage image = encode_panel(state, {});
+  const auto twin = [&](std::size_t address) { return static_cast<std::int32_t>(wide(image, address)); };
+  for (const std::size_t word : {0U, 1U, 2U, 3U, 42U, 43U, 44U, 51U, 54U}) {
+    EXPECT_EQ(image.registers[500 + word], image.registers[word]) << word;
+  }
+  for (const std::size_t number : {4U, 6U, 8U, 10U, 12U, 20U, 24U, 38U, 60U, 88U}) {
+    EXPECT_EQ(wide(image, 500 + number), wide(image, number)) << number;
+  }
+  EXPECT_EQ(twin(514), 14) << "micrometres";
+  EXPECT_EQ(twin(518), -18);
+  EXPECT_EQ(twin(526), 26000);
+  EXPECT_EQ(twin(532), 32000000) << "microradians";
+  EXPECT_EQ(twin(549), 5) << "microseconds";
+  EXPECT_EQ(twin(562), 500);
+  EXPECT_EQ(twin(590), 7500);
+  EXPECT_EQ(twin(547), std::numeric_limits<std::int32_t>::max());
+  EXPECT_EQ(twin(522), std::numeric_limits<std::int32_t>::min());
+}
+
+TEST(BridgePanelMap, TheLowWordComesFirstWhereTheFormatSaysSo) {
+  const PanelImage image = encode_panel(known_state(), {.low_word_first = true});
+  EXPECT_EQ(image.registers[4], 70001 - 65536);
+  EXPECT_EQ(image.registers[5], 1);
+  EXPECT_EQ(image.registers[283], 0xE6B6);
+  EXPECT_EQ(image.registers[284], 0x4640);
+  EXPECT_EQ(image.registers[285], 0x5678);
+  EXPECT_EQ(image.registers[504], 70001 - 65536);
+  EXPECT_EQ(image.registers[3], kAlarmLeadingEdgeOut | kAlarmLinkLost) << "a single register stays";
+  PanelState read;
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
+  EXPECT_EQ(read.points, 70001U);
+  EXPECT_EQ(read.worst_leading_edge, -0.018F);
+}
+
+TEST(BridgePanelMap, InfinityIsSentAsTheFormatSays) {
+  PanelState state;
+  state.leading_edge_tolerance = 0.1F;
+  state.rest_tolerance = std::numeric_limits<float>::infinity();
+  state.last_distance = std::numeric_limits<float>::quiet_NaN();
+  state.reasons = kReasonNoTolerance;
+  for (const float infinity : {0.0F, 9999.0F, -1.0F, std::numeric_limits<float>::infinity()}) {
+    const PanelImage image = encode_panel(state, {.infinity = infinity});
+    EXPECT_EQ(real(image, 45), 0.1F);
+    EXPECT_EQ(real(image, 47), infinity);
+    EXPECT_EQ(real(image, 40), infinity);
+    EXPECT_EQ(image.registers[282], 512);
+    PanelState read;
+    ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
+    EXPECT_EQ(read.leading_edge_tolerance, 0.1F);
+    EXPECT_EQ(read.rest_tolerance, std::numeric_limits<float>::infinity());
+  }
+}
+
+TEST(BridgePanelTexts, AreShortAndSayWhatToDo) {
+  PanelState state = known_state();
+  EXPECT_EQ(verdict_words(state), "OUT OF TOLERANCE: points missing");
+  EXPECT_EQ(advice_words(state), "cut or weld the points marked, then probe them again");
+  state.reasons = kReasonLinkLost;
+  EXPECT_EQ(advice_words(state), "link lost: check the cable and the machine");
+  state.verdict = BladeState::not_decided;
+  state.reasons = kReasonZoneNotProbed | kReasonOpen;
+  EXPECT_EQ(advice_words(state), "probe the leading edge");
+  state.verdict = BladeState::in_tolerance;
+  state.reasons = 0;
+  EXPECT_EQ(advice_words(state), "nothing: the blade is in tolerance");
+  Verdict worst;
+  worst.sequence = 1312;
+  worst.region = Region::leading_edge;
+  worst.action = Action::weld;
+  worst.foot.distance = -0.3234;
+  worst.foot.u = 0.4839;
+  worst.foot.v = 0.648;
+  EXPECT_EQ(worst_words(&worst, 117.04), "point 1312 leading edge -0.323 mm WELD radius 117.0 mm u 0.4839 v 0.6480");
+  worst.sequence = std::numeric_limits<std::uint32_t>::max();
+  EXPECT_LE(worst_words(&worst, 117.04).size(), 80U);
+  EXPECT_EQ(worst_words(nullptr, 0), "");
 }
 
 TEST(BridgePanelMap, VerdictReasonsAndTestNumbersStandInTheExtension) {
@@ -115,100 +239,30 @@ TEST(BridgePanelMap, VerdictReasonsAndTestNumbersStandInTheExtension) {
   for (const Reason reason : {Reason::points_refused, Reason::unfinished, Reason::mirrored}) reasons.add(reason);
   state.reasons = reason_bits(reasons);
   EXPECT_EQ(state.reasons, 8 + 32 + 128);
-  const PanelImage image = encode_panel(state);
-  EXPECT_EQ(image.extension[281 - kPlaceBase], 2);
-  EXPECT_EQ(image.extension[282 - kPlaceBase], 8 + 32 + 128);
-  EXPECT_EQ(image.extension[283 - kPlaceBase], 0x4640);  // 12345.678 as float32: 46 40 E6 B6
-  EXPECT_EQ(image.extension[284 - kPlaceBase], 0xE6B6);
-  EXPECT_EQ(image.extension[285 - kPlaceBase], 0x1234);
-  EXPECT_EQ(image.extension[286 - kPlaceBase], 0x5678);
+  const PanelImage image = encode_panel(state, {});
+  EXPECT_EQ(image.registers[281], 2);
+  EXPECT_EQ(image.registers[282], 8 + 32 + 128);
+  EXPECT_EQ(image.registers[283], 0x4640);  // 12345.678 as float32: 46 40 E6 B6
+  EXPECT_EQ(image.registers[284], 0xE6B6);
+  EXPECT_EQ(image.registers[285], 0x1234);
+  EXPECT_EQ(image.registers[286], 0x5678);
   PanelState read;
-  ASSERT_TRUE(decode_panel(image.registers, image.extension, read));
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
   EXPECT_EQ(read.verdict, state.verdict);
   EXPECT_EQ(read.reasons, state.reasons);
 }
 
 TEST(BridgePanelMap, ReadsBackWhatItWrites) {
-  const PanelImage image = encode_panel(known_state());
+  const PanelImage image = encode_panel(known_state(), {});
   PanelState state;
-  ASSERT_TRUE(decode_panel(image.registers, image.extension, state));
-  EXPECT_EQ(encode_panel(state).registers, image.registers);
-  EXPECT_EQ(encode_panel(state).extension, image.extension);
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), state));
+  EXPECT_EQ(encode_panel(state, {}).registers, image.registers);
   EXPECT_TRUE(state.has_extension);
-  ASSERT_TRUE(decode_panel(image.registers, {}, state));
+  ASSERT_TRUE(decode_panel(first_registers(image), {}, state));
   EXPECT_FALSE(state.has_extension);
   PanelImage foreign = image;
   foreign.registers[0] = 2;
-  EXPECT_FALSE(decode_panel(foreign.registers, image.extension, state));
-}
-
-using Bytes = std::vector<std::uint8_t>;
-
-Bytes answer(const Bytes& request, bool commands_enabled = false) {
-  PanelCommands commands;
-  return answer_panel_request(request, encode_panel(known_state()), commands_enabled, commands);
-}
-
-TEST(BridgePanelProtocol, AnswersReadsInsideTheMapOnly) {
-  EXPECT_EQ(answer({4, 0, 0, 0, 2}), (Bytes{4, 4, 0, 1, 0, 3}));
-  EXPECT_EQ(answer({4, 0, 0, 0, 92}).size(), 2U + 2 * 92);
-  EXPECT_EQ(answer({4, 0, 200, 0, 87}).size(), 2U + 2 * 87);
-  EXPECT_EQ(answer({2, 0, 0, 0, 8}), (Bytes{2, 1, 0b1111}));
-  EXPECT_EQ(answer({2, 0, 2, 0, 1}), (Bytes{2, 1, 1}));
-  EXPECT_EQ(answer({4, 0, 91, 0, 2}), (Bytes{0x84, 2}));
-  EXPECT_EQ(answer({4, 0, 92, 0, 1}), (Bytes{0x84, 2}));
-  EXPECT_EQ(answer({4, 0, 199, 0, 1}), (Bytes{0x84, 2}));
-  EXPECT_EQ(answer({4, 0, 200, 0, 88}), (Bytes{0x84, 2}));
-  EXPECT_EQ(answer({4, 0xFF, 0xFF, 0, 1}), (Bytes{0x84, 2}));
-  EXPECT_EQ(answer({4, 0, 0, 0, 0}), (Bytes{0x84, 3}));
-  EXPECT_EQ(answer({4, 0, 0, 0, 126}), (Bytes{0x84, 3}));
-  EXPECT_EQ(answer({4, 0, 0, 0}), (Bytes{0x84, 3}));
-  EXPECT_EQ(answer({2, 0, 1, 0, 8}), (Bytes{0x82, 2}));
-}
-
-TEST(BridgePanelProtocol, RefusesWritesAndForeignFunctions) {
-  for (const std::uint8_t function : Bytes{5, 6, 7, 15, 16, 22, 23, 43, 127}) {
-    EXPECT_EQ(answer({function, 0, 0, 0xFF, 0}), (Bytes{static_cast<std::uint8_t>(function | 0x80U), 1}));
-  }
-  EXPECT_EQ(answer({1, 0, 0, 0, 4}), (Bytes{0x81, 1}));
-  EXPECT_EQ(answer({3, 0, 0, 0, 1}), (Bytes{0x83, 2}));
-  EXPECT_EQ(answer({6, 0, 0, 0, 1}, true), (Bytes{0x86, 1}));
-}
-
-TEST(BridgePanelProtocol, CoilsAreCommandsWhereTheyAreEnabled) {
-  PanelCommands commands;
-  const PanelImage image = encode_panel(known_state());
-  const Bytes stop = {5, 0, 1, 0xFF, 0};
-  EXPECT_EQ(answer_panel_request(stop, image, true, commands), stop);
-  EXPECT_TRUE(commands.stop);
-  EXPECT_FALSE(commands.start || commands.reset || commands.acknowledge);
-  commands = {};
-  EXPECT_EQ(answer_panel_request(Bytes{15, 0, 2, 0, 2, 1, 0b11}, image, true, commands), (Bytes{15, 0, 2, 0, 2}));
-  EXPECT_TRUE(commands.reset && commands.acknowledge);
-  EXPECT_FALSE(commands.start || commands.stop);
-  commands = {};
-  EXPECT_EQ(answer_panel_request(Bytes{5, 0, 1, 0, 0}, image, true, commands), (Bytes{5, 0, 1, 0, 0}));
-  EXPECT_FALSE(commands.stop);
-  EXPECT_EQ(answer({5, 0, 4, 0xFF, 0}, true), (Bytes{0x85, 2}));
-  EXPECT_EQ(answer({5, 0, 0, 0x12, 0}, true), (Bytes{0x85, 3}));
-  EXPECT_EQ(answer({15, 0, 0, 0, 5, 1, 1}, true), (Bytes{0x8F, 2}));
-  EXPECT_EQ(answer({15, 0, 0, 0, 4, 2, 1}, true), (Bytes{0x8F, 3}));
-  EXPECT_EQ(answer({1, 0, 0, 0, 4}, true), (Bytes{1, 1, 0}));
-}
-
-TEST(BridgePanelProtocol, BearsAnyBytes) {
-  std::mt19937 random(7);
-  const PanelImage image = encode_panel(known_state());
-  for (int round = 0; round < 20000; ++round) {
-    Bytes request(1 + random() % kLongestPdu);
-    for (std::uint8_t& byte : request) byte = static_cast<std::uint8_t>(random());
-    if (round % 2 == 0) request[0] = static_cast<std::uint8_t>(1 + random() % 16);
-    if (round % 3 == 0) request.resize(std::min<std::size_t>(request.size(), 5));
-    PanelCommands commands;
-    const Bytes reply = answer_panel_request(request, image, round % 4 == 0, commands);
-    ASSERT_GE(reply.size(), 2U);
-    ASSERT_LE(reply.size(), kLongestPdu);
-  }
+  EXPECT_FALSE(decode_panel(first_registers(foreign), extension_of(image), state));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ class ServedPanel {
     error_ = server_.open(settings);
     if (error_) return;
     thread_ = std::thread([this] {
-      const PanelImage image = encode_panel(known_state());
+      const PanelImage image = encode_panel(known_state(), {});
       while (!stop_.load()) {
         server_.serve(image, [this](const PanelCommands& commands) {
           if (commands.acknowledge) acknowledged_.fetch_add(1);
@@ -71,13 +71,13 @@ Context connected(std::uint16_t port, int unit = 1) {
 }
 
 bool reads_the_map(modbus_t* context) {
-  std::array<std::uint16_t, kPanelRegisters> registers{};
-  std::array<std::uint16_t, kExtensionRegisters> places{};
-  const PanelImage expected = encode_panel(known_state());
-  return modbus_read_input_registers(context, 0, kPanelRegisters, registers.data()) == kPanelRegisters &&
-         modbus_read_input_registers(context, kPlaceBase, static_cast<int>(places.size()), places.data()) ==
-             static_cast<int>(places.size()) &&
-         registers == expected.registers && places == expected.extension;
+  std::array<std::uint16_t, kPanelMapRegisters> registers{}, holdings{};
+  const PanelImage expected = encode_panel(known_state(), {});
+  for (int first = 0; first < static_cast<int>(kPanelMapRegisters); first += 120) {
+    if (modbus_read_input_registers(context, first, 120, registers.data() + first) != 120) return false;
+    if (modbus_read_registers(context, first, 120, holdings.data() + first) != 120) return false;
+  }
+  return registers == expected.registers && holdings == expected.registers;
 }
 
 int raw_connection(std::uint16_t port) {
@@ -96,11 +96,11 @@ TEST(BridgePanelServer, GivesEveryRegisterToLibmodbus) {
   const Context context = connected(panel.port());
   ASSERT_TRUE(context);
   EXPECT_TRUE(reads_the_map(context.get()));
-  std::array<std::uint8_t, 8> inputs{};
-  ASSERT_EQ(modbus_read_input_bits(context.get(), 0, 8, inputs.data()), 8);
-  EXPECT_EQ(inputs, (std::array<std::uint8_t, 8>{1, 1, 1, 1, 0, 0, 0, 0}));
+  std::array<std::uint8_t, 16> inputs{};
+  ASSERT_EQ(modbus_read_input_bits(context.get(), 0, 16, inputs.data()), 16);
+  EXPECT_EQ(inputs, (std::array<std::uint8_t, 16>{1, 1, 1, 1}));
   std::uint16_t word = 0;
-  EXPECT_EQ(modbus_read_input_registers(context.get(), 92, 1, &word), -1);
+  EXPECT_EQ(modbus_read_input_registers(context.get(), 600, 1, &word), -1);
   EXPECT_EQ(errno, EMBXILADD);
   EXPECT_TRUE(reads_the_map(context.get())) << "an exception must not break the connection";
 }
@@ -123,16 +123,28 @@ TEST(BridgePanelServer, RefusesCoilsUnlessCommandsAreEnabled) {
   EXPECT_EQ(obeying.acknowledged(), 1);
 }
 
-TEST(BridgePanelServer, AnswersSeveralClientsAndOnlyItsUnit) {
+TEST(BridgePanelServer, AnswersSeveralClientsAndEveryUnit) {
   const ServedPanel panel;
   std::vector<Context> contexts;
   for (int client = 0; client < 8; ++client) contexts.push_back(connected(panel.port()));
   for (int round = 0; round < 20; ++round) {
     for (const Context& context : contexts) ASSERT_TRUE(reads_the_map(context.get()));
   }
-  const Context foreign = connected(panel.port(), 17);
-  EXPECT_FALSE(reads_the_map(foreign.get()));
-  EXPECT_TRUE(reads_the_map(connected(panel.port(), 255).get()));
+  for (const int unit : {0, 17, 247, 255}) EXPECT_TRUE(reads_the_map(connected(panel.port(), unit).get())) << unit;
+}
+
+TEST(BridgePanelServer, ARawFrameIsAnsweredAsTheUnitThatWasAsked) {
+  const ServedPanel panel;
+  for (int unit = 0; unit < 256; ++unit) {
+    const int line = raw_connection(panel.port());
+    const auto byte = static_cast<std::uint8_t>(unit);
+    const std::array<std::uint8_t, 12> request = {0x12, byte, 0, 0, 0, 6, byte, 3, 0x01, 0x1D, 0, 2};
+    ASSERT_EQ(send(line, request.data(), request.size(), 0), 12);
+    std::array<std::uint8_t, 13> reply{};
+    ASSERT_EQ(recv(line, reply.data(), reply.size(), MSG_WAITALL), 13);
+    EXPECT_EQ(reply, (std::array<std::uint8_t, 13>{0x12, byte, 0, 0, 0, 7, byte, 3, 4, 0x12, 0x34, 0x56, 0x78}));
+    close(line);
+  }
 }
 
 TEST(BridgePanelServer, StuckAndFloodingClientsDoNotHinderOthers) {

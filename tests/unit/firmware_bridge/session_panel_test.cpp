@@ -107,6 +107,19 @@ TEST(SessionPanel, EndsWithTheVerdictOfTheWholeResult) {
   EXPECT_EQ(session.own().reasons, kReasonAmbiguous) << "the session's own screen shows the same";
 }
 
+TEST(SessionPanel, StaysWithTheResultOfAnEndedSession) {
+  ScriptedSource source(measured_points(kSessionPoints));
+  WatchedSession session(source);
+  ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.points == kSessionPoints && !shown.ended; }));
+  const SessionResult result = session.stop();
+  session.conclude({BladeState::in_tolerance, {}});
+  ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.ended; }));
+  EXPECT_EQ(session.panel.verdict, BladeState::in_tolerance);
+  EXPECT_EQ(session.panel.points, result.points.size());
+  EXPECT_EQ(session.panel.rms, static_cast<float>(result.report.rms_mm));
+  EXPECT_EQ(session.panel.leading_edge_out, result.report.leading_edge.judged_out);
+}
+
 TEST(SessionPanel, ShowsTheSession) {
   ScriptedSource source(measured_points(kSessionPoints));
   WatchedSession session(source);

@@ -1,0 +1,196 @@
+#include "firmware_bridge/host/panel/panel_fields.hpp"
+
+#include <array>
+#include <bit>
+#include <type_traits>
+#include <utility>
+
+namespace bladefit {
+namespace {
+
+template <typename Value>
+std::uint32_t bits_of(Value value) {
+  if constexpr (std::is_same_v<Value, float>) {
+    return std::bit_cast<std::uint32_t>(value);
+  } else {
+    return static_cast<std::uint32_t>(value);
+  }
+}
+
+template <typename Value>
+void set_bits(std::uint32_t bits, Value& value) {
+  if constexpr (std::is_same_v<Value, float>) {
+    value = std::bit_cast<float>(bits);
+  } else {
+    value = static_cast<Value>(bits);
+  }
+}
+
+template <typename Value>
+constexpr PanelType type_of() {
+  if constexpr (std::is_same_v<Value, float>) return PanelType::real;
+  return std::is_same_v<Value, std::uint32_t> ? PanelType::wide : PanelType::word;
+}
+
+/// A member of the state.
+template <auto member>
+constexpr PanelField field(std::uint16_t address, PanelUnit unit, std::string_view name, std::string_view meaning) {
+  using Value = std::remove_cvref_t<decltype(std::declval<PanelState&>().*member)>;
+  return {address,
+          type_of<Value>(),
+          unit,
+          name,
+          meaning,
+          [](const PanelState& state, std::size_t) { return bits_of(state.*member); },
+          [](PanelState& state, std::size_t, std::uint32_t bits) { set_bits(bits, state.*member); }};
+}
+
+/// An element of an array of the state.
+template <auto member, std::size_t index>
+constexpr PanelField element(std::uint16_t address, PanelUnit unit, std::string_view name, std::string_view meaning) {
+  using Value = std::remove_cvref_t<decltype((std::declval<PanelState&>().*member)[0])>;
+  return {address,
+          type_of<Value>(),
+          unit,
+          name,
+          meaning,
+          [](const PanelState& state, std::size_t) { return bits_of((state.*member)[index]); },
+          [](PanelState& state, std::size_t, std::uint32_t bits) { set_bits(bits, (state.*member)[index]); }};
+}
+
+/// The same member of each of the newest places.
+template <auto member>
+constexpr PanelField places(std::uint16_t address, std::uint16_t stride, PanelUnit unit, std::string_view name,
+                            std::string_view meaning) {
+  using Value = std::remove_cvref_t<decltype(std::declval<PanelPlace&>().*member)>;
+  return {address,
+          type_of<Value>(),
+          unit,
+          name,
+          meaning,
+          [](const PanelState& state, std::size_t item) { return bits_of(state.newest[item].*member); },
+          [](PanelState& state, std::size_t item, std::uint32_t bits) { set_bits(bits, state.newest[item].*member); },
+          kPanelPlaces,
+          stride};
+}
+
+/// Always the same value.
+template <auto value>
+constexpr PanelField constant(std::uint16_t address, std::string_view name, std::string_view meaning) {
+  return {address,         type_of<std::remove_const_t<decltype(value)>>(),
+          PanelUnit::none, name,
+          meaning,         [](const PanelState&, std::size_t) { return bits_of(value); }};
+}
+
+constexpr PanelField text(std::size_t index, std::string_view name, std::string_view meaning) {
+  return {static_cast<std::uint16_t>(kTextBase + index * kTextRegisters), PanelType::text, PanelUnit::none, name,
+          meaning};
+}
+
+using enum PanelUnit;
+using State = PanelState;
+using Place = PanelPlace;
+
+constexpr std::string_view kActions = "0 none, 1 cut, 2 weld";
+constexpr std::string_view kInfinite = "panel.infinity where it is not judged: bit 9 of register 282 is set then";
+
+constexpr auto kFields = std::to_array<PanelField>({
+    constant<kPanelMapVersion>(0, "map_version", "1"),
+    field<&State::session>(1, none, "session_state",
+                           "0 idle, 1 connecting, 2 collecting, 3 tracking, 4 settled, 5 fault"),
+    field<&State::fit_status>(2, none, "fit_status", "0 underdetermined, 1 tracking, 2 converged, 3 infeasible"),
+    field<&State::alarms>(3, none, "alarms",
+                          "bit 0 leading edge out, 1 rest out, 2 link lost, 3 data gap, 4 memory full, 5 infeasible"),
+    field<&State::points>(4, none, "points", "points taken"),
+    field<&State::leading_edge_points>(6, none, "leading_edge_points", "points of the leading edge"),
+    field<&State::leading_edge_out>(8, none, "leading_edge_out", "points of the leading edge out of tolerance"),
+    field<&State::rest_out>(10, none, "rest_out", "other points out of tolerance"),
+    field<&State::rejected>(12, none, "rejected", "points that do not count"),
+    field<&State::rms>(14, millimetre, "rms", "root mean square of the distances"),
+    field<&State::leading_edge_rms>(16, millimetre, "leading_edge_rms", "the same of the leading edge"),
+    field<&State::worst_leading_edge>(18, millimetre, "worst_leading_edge",
+                                      "largest distance of the leading edge; positive: cut, negative: weld"),
+    field<&State::worst_leading_edge_sequence>(20, none, "worst_leading_edge_point", "number of its point; 0 = none"),
+    field<&State::worst_rest>(22, millimetre, "worst_rest", "largest distance of the rest; positive: cut"),
+    field<&State::worst_rest_sequence>(24, none, "worst_rest_point", "number of its point; 0 = none"),
+    element<&State::pose, 0>(26, millimetre, "tx", "pose: shift along x"),
+    element<&State::pose, 1>(28, millimetre, "ty", "pose: shift along y"),
+    element<&State::pose, 2>(30, millimetre, "tz", "pose: shift along z"),
+    element<&State::pose, 3>(32, radian, "psi", "pose: angle about x"),
+    element<&State::pose, 4>(34, radian, "theta", "pose: angle about y"),
+    element<&State::pose, 5>(36, radian, "phi", "pose: angle about z"),
+    field<&State::last_sequence>(38, none, "last_point", "number of the newest point; 0 = none"),
+    field<&State::last_distance>(40, millimetre, "last_distance", "its distance; positive: cut, negative: weld"),
+    field<&State::last_state>(42, none, "last_state", "0 pending, 1 in, 2 out, 3 rejected, 4 undecided"),
+    field<&State::last_action>(43, none, "last_action", kActions),
+    field<&State::last_region>(44, none, "last_region", "0 rest, 1 leading edge"),
+    field<&State::leading_edge_tolerance>(45, millimetre, "leading_edge_tolerance", kInfinite),
+    field<&State::rest_tolerance>(47, millimetre, "rest_tolerance", kInfinite),
+    field<&State::push_latency_us>(49, microsecond, "push_latency", "99 of 100 points were judged within"),
+    field<&State::heartbeat>(51, none, "heartbeat", "seconds that the panel runs; stands still where the host hangs"),
+    field<&State::smallest_feasible>(52, millimetre, "smallest_feasible",
+                                     "smallest feasible tolerance of the leading edge; 0 = not sought"),
+    field<&State::determined>(54, none, "determined", "degrees of freedom that the points determine, of 6"),
+    places<&Place::sequence>(60, 4, none, "newest_point",
+                             "newest points of the leading edge out of tolerance, newest first: number; 0 = none"),
+    places<&Place::distance>(62, 4, millimetre, "newest_distance", "distance of that point"),
+    places<&Place::patch>(200, 8, none, "newest_patch", "patch of the design that it lies on"),
+    places<&Place::u>(201, 8, none, "newest_u", "parameter u there"),
+    places<&Place::v>(203, 8, none, "newest_v", "parameter v there"),
+    places<&Place::radius>(205, 8, millimetre, "newest_radius", "distance from the shaft axis"),
+    places<&Place::action>(207, 8, none, "newest_action", kActions),
+    field<&State::improving>(264, none, "improving", "1: the optimum of the mode still improves"),
+    PanelField{265, PanelType::wide, none, "support_point",
+               "numbers of the points that prove the smallest feasible tolerance; 0 = no more",
+               [](const State& state, std::size_t item) { return state.support[item]; },
+               [](State& state, std::size_t item, std::uint32_t bits) { state.support[item] = bits; }, kPanelSupport,
+               2},
+    field<&State::verdict>(281, none, "verdict", "0 not judged, 1 in tolerance, 2 out of tolerance, 3 not decided"),
+    field<&State::reasons>(
+        282, none, "reasons",
+        "bit 0 not converged, 1 underdetermined, 2 unproven, 3 points lost or refused, 4 leading-edge "
+        "zone not probed, 5 pending, undecided or unfinished, 6 link lost, 7 wrong units or mirrored, "
+        "8 ambiguous or far start, 9 not judged: a tolerance is infinite"),
+    constant<kPanelTestReal>(283, "test_real", "12345.678; another value: the word order is wrong"),
+    constant<kPanelTestWord>(285, "test_word", "0x12345678 = 305419896; another value: the word order is wrong"),
+    field<&State::planned>(287, none, "points_planned", "points that will come; 0 = not known"),
+    field<&State::ended>(289, none, "host_state", "0 running, 1 ended: what is shown is the result"),
+    text(0, "verdict_text", "the verdict and its reasons"),
+    text(1, "worst_text", "the worst place"),
+    text(2, "advice_text", "what to do"),
+});
+
+constexpr std::array<PanelBit, 7> kInputs = {
+    {{"is_leading_edge_out", "a point of the leading edge is out of tolerance"},
+     {"is_any_out", "any point is out of tolerance"},
+     {"is_link_lost", "the machine does not answer"},
+     {"is_fit_determined", "every free degree of freedom is determined"},
+     {"is_in_tolerance", "the verdict is in tolerance"},
+     {"is_not_decided", "the verdict is not decided"},
+     {"is_ended", "the session is over, what is shown is its result"}}};
+
+constexpr std::array<PanelBit, kPanelCoils> kCoils = {{{"press_start", "take points again"},
+                                                       {"press_stop", "take no points"},
+                                                       {"press_reset", "forget all points"},
+                                                       {"press_acknowledge", "the alarms have been seen"}}};
+
+}  // namespace
+
+std::span<const PanelField> panel_fields() { return kFields; }
+std::span<const PanelBit> panel_inputs() { return kInputs; }
+std::span<const PanelBit> panel_coils() { return kCoils; }
+
+std::uint16_t register_count(PanelType type) {
+  switch (type) {
+    case PanelType::word:
+      return 1;
+    case PanelType::wide:
+    case PanelType::real:
+      return 2;
+    case PanelType::text:
+      break;
+  }
+  return kTextRegisters;
+}
+
+}  // namespace bladefit
