@@ -63,7 +63,7 @@ bool Acquisition::open_source() {
                     run_id_, recorded.run_id)));
     return false;
   }
-  last_point_ = Clock::now();
+  last_news_ = Clock::now();
   return true;
 }
 
@@ -86,7 +86,7 @@ void Acquisition::take_point(const ProbePoint& point) {
   // Sources promise rising numbers; a record that breaks the promise must not reach the journal.
   if (point.sequence <= last_sequence_) return;
   last_sequence_ = point.sequence;
-  last_point_ = Clock::now();
+  last_news_ = Clock::now();
   finish_taken_ = false;
   take({EventKind::point, point});
 }
@@ -128,7 +128,7 @@ void Acquisition::follow_source() {
 void Acquisition::take_losses(const SourceStatus& status) {
   if (status.last > last_sequence_) {
     last_sequence_ = status.last;
-    last_point_ = Clock::now();
+    last_news_ = Clock::now();
     StreamEvent lost{EventKind::lost, {}};
     lost.point.sequence = status.last;
     take(lost);
@@ -195,7 +195,9 @@ SessionEnd Acquisition::end_reached() {
   if (shared_.requests.stop.load()) return SessionEnd::stopped;
   if (settings_.end_when_finished && finish_taken_) return SessionEnd::finished;
   // While records are behind the source asks for them, and in the end gives them up.
-  const bool idle = settings_.idle.count() > 0 && Clock::now() - last_point_ > settings_.idle;
+  // A device whose memory is full waits for a slow disk, and not for its program.
+  const bool stored = shared_.stored.events.load() >= taken_events_;
+  const bool idle = settings_.idle.count() > 0 && stored && Clock::now() - last_news_ > settings_.idle;
   if (!idle || shared_.requests.pause.load() || (source_.status().behind && source_.status().link == LinkState::up))
     return SessionEnd::running;
   return link_is_gone() ? SessionEnd::failed : SessionEnd::idle;
@@ -205,6 +207,7 @@ void Acquisition::acknowledge_stored() {
   const std::uint32_t stored = shared_.stored.sequence.load();
   if (stored == acknowledged_) return;
   acknowledged_ = stored;
+  last_news_ = Clock::now();
   source_.acknowledge(stored);
 }
 

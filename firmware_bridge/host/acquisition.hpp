@@ -69,8 +69,8 @@ class Acquisition {
     std::uint64_t losses = 0;
     std::size_t remarks = 0;
   } announced_;
-  std::uint64_t unnumbered_losses_ = 0;  ///< that are in the stream
-  Clock::time_point last_point_ = Clock::now();
+  std::uint64_t unnumbered_losses_ = 0;         ///< that are in the stream
+  Clock::time_point last_news_ = Clock::now();  ///< when a point came or was stored last
 };
 
 }  // namespace bladefit

@@ -56,9 +56,18 @@ Failure check_identity(const std::string& folder, const JournalSummary& recorded
   if (recorded.identity.config_digest == wanted.config_digest) return {};
   const std::string which = differing_settings(folder, recorded.identity.config_digest, settings);
   return bad_input(
-      fmt::format("{}: the session in this folder was started with other fit settings{}{}; repeat those, or name "
-                  "another folder with --session",
+      fmt::format("{}: the session was begun with other fit settings{}{}; repeat those, or name another folder with "
+                  "--session",
                   path, which.empty() ? "" : ": ", which));
+}
+
+std::shared_ptr<const Tally> tally_of(const ToleranceMap& tolerance, std::span<const Verdict> verdicts) {
+  auto tally = std::make_shared<Tally>(tolerance);
+  for (const Verdict& verdict : verdicts) {
+    tally->accept(verdict);
+    tally->give_up(verdict.sequence);
+  }
+  return tally;
 }
 
 }  // namespace
@@ -79,6 +88,7 @@ struct Host::Running {
   std::optional<Acquisition> acquisition;
   std::optional<FitWorker> fit;
   std::optional<Publication> publication;
+  std::shared_ptr<const Tally> judged_again;  ///< of a session whose memory was full
   std::thread panel;
   std::vector<std::thread> threads;  ///< the others
 
@@ -160,7 +170,10 @@ void Host::request_stop() { shared_.requests.stop.store(true); }
 
 PanelState Host::panel_state() const { return running_->publication->shown(); }
 
-void Host::conclude(const BladeVerdict& verdict) { running_->publication->conclude(verdict); }
+void Host::conclude(const BladeVerdict& verdict) {
+  running_->publication->conclude(verdict, running_->judged_again);
+  shared_.to_publication.wakeup.signal();
+}
 
 void Host::close_panel() {
   shared_.panel_closed.store(true);
@@ -194,6 +207,7 @@ SessionResult Host::finish() {
   if (unreadable && !result.error) result.error = unreadable;
   if (result.error) result.end = SessionEnd::failed;
   if (shared_.outcome.program_ended()) result.losses.finish();
+  if (result.report.memory_full) running_->judged_again = tally_of(settings_.localizer.tolerance, result.verdicts);
   return result;
 }
 

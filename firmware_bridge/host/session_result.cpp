@@ -2,9 +2,22 @@
 
 namespace bladefit {
 
+namespace {
+
+/// Ranges that follow each other without a gap are one.
+void add_range(const SequenceRange& range, std::vector<SequenceRange>& ranges) {
+  if (!ranges.empty() && ranges.back().last + 1 == range.first) {
+    ranges.back().last = range.last;
+  } else {
+    ranges.push_back(range);
+  }
+}
+
+}  // namespace
+
 void add_event(const StreamEvent& event, const Localizer& localizer, SessionResult& result) {
   const std::optional<SequenceRange> lost = result.losses.take(event);
-  if (lost) result.lost.push_back(*lost);
+  if (lost) add_range(*lost, result.lost);
   if (event.kind == EventKind::reset) {
     result.points.clear();
     result.verdicts.clear();

@@ -55,6 +55,21 @@ RegionCounts count_region(const nlohmann::json& result, const std::string& regio
   return counts;
 }
 
+/// The same points with x and i of the other sign.
+std::string mirrored(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string text, line;
+  for (bool header = true; std::getline(lines, line); header = false) {
+    std::istringstream cells(line);
+    for (int column = 0; std::getline(cells, line, ','); ++column) {
+      const bool turned = !header && (column == 0 || column == 3);
+      text += (column > 0 ? "," : "") + (turned ? std::to_string(-std::stod(line)) : line);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 void expect_pose(const PolledPanel& panel, const nlohmann::json& pose) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     expect_same(panel.real(26 + 2 * static_cast<int>(axis)), pose.at("translation").at(axis));
@@ -123,6 +138,26 @@ TEST(RunPanel, ShowsWhatTheResultSays) {
   expect_same(panel.real(47), static_cast<double>(0.1F));
   EXPECT_EQ(panel.word(54), 6U);
   expect_newest(panel, result);
+}
+
+/// What is wrong with the points as a whole is found when the session ends; the panel's last words say it too.
+TEST(RunPanel, EndsWithTheVerdictOfTheResult) {
+  const ScratchFolder scratch;
+  std::ofstream(scratch / "mirrored.csv") << mirrored(read_whole(kFewPoints));
+  Process run(run_options("replay:" + (scratch / "mirrored.csv"), scratch / "session", scratch / "result.json",
+                          {"--headless"}));
+  const RawPanel panel(panel_port(run));
+  std::uint32_t last = 0;
+  while (run.running()) {
+    const std::uint32_t verdict = panel.number(281);
+    if (verdict != 0) last = verdict;
+  }
+  EXPECT_EQ(run.exit_code(), 4) << run.out();
+  const nlohmann::json verdict = testing::parse_json(read_whole(scratch / "result.json")).at("verdict");
+  EXPECT_EQ(verdict.at("state"), "not_decided");
+  EXPECT_EQ(last >> 16U, 3U) << "not decided";
+  constexpr std::uint32_t kWrongWorld = 128, kAmbiguousOrFar = 256;
+  EXPECT_NE(last & (kWrongWorld | kAmbiguousOrFar), 0U) << verdict.dump();
 }
 
 }  // namespace

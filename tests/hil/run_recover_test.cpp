@@ -58,6 +58,9 @@ TEST(RunRecover, GivesASessionInWhichTheLostPointsStayKnown) {
   ASSERT_TRUE(resumed.exit_code()) << resumed.err();
   const nlohmann::json verdict = testing::parse_json(read_whole(json)).at("verdict");
   EXPECT_EQ(verdict.at("lost"), nlohmann::json::parse("[[17, 20]]")) << resumed.err();
+  Process itself(recover(damaged, {"-o", damaged.session}));
+  EXPECT_EQ(itself.exit_code(), 2);
+  EXPECT_NE(itself.err().find("is the damaged session itself; name a new folder"), std::string::npos) << itself.err();
   Process twice(recover(damaged, {"-o", session}));
   EXPECT_EQ(twice.exit_code(), 2);
   EXPECT_NE(twice.err().find("holds a session already"), std::string::npos) << twice.err();

@@ -99,6 +99,7 @@ void throw_if(const Failure& failure) {
 
 /// A journal of the whole records in a folder of its own, with the settings beside it.
 void write_session(const std::string& from, const std::string& to, const Salvage& salvage) {
+  if (same_file(from, to)) throw ToolError(fmt::format("{}: is the damaged session itself; name a new folder", to));
   if (!salvage.header_whole) {
     throw ToolError(fmt::format(
         "{}: the header is damaged, so that design, settings and run are not known; save the points with -o "

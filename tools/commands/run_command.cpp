@@ -1,6 +1,7 @@
 #include "tools/commands/run_command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -107,17 +108,24 @@ std::string ending(const SessionResult& session) {
   return fmt::format("by a fault; what follows is of the {} points stored before it", session.points.size());
 }
 
-/// Tells the end of the session. Returns false where standard output fails; one that nobody reads any more has been
-/// given up by its reader, and is none of our failures.
-bool tell(std::FILE* words, const std::string& text, const RunPlan& plan) {
-  std::clearerr(words);
+/// Where the words for the user go.
+struct Words {
+  explicit Words(std::FILE* to) : file(to), terminal(isatty(fileno(to)) == 1) {}
+  std::FILE* file;
+  bool terminal;
+};
+
+/// Tells the end of the session. Returns false where the output fails; one that nobody reads any more, a pipe or a
+/// terminal that is gone, was given up by its reader, and is none of our failures.
+bool tell(const Words& words, const std::string& text, const RunPlan& plan) {
+  std::clearerr(words.file);
   errno = 0;
-  const bool told = std::fputs(text.c_str(), words) >= 0 && std::fflush(words) == 0;
+  const bool told = std::fputs(text.c_str(), words.file) >= 0 && std::fflush(words.file) == 0;
   if (told) return true;
   const int reason = errno;
   say(fmt::format("the summary cannot be written ({}); the result is in {}", std::strerror(reason),
                   plan.host.session_directory));
-  return reason == EPIPE;
+  return reason == EPIPE || (words.terminal && reason == EIO);
 }
 
 WrittenFiles write_files(const RunPlan& plan, const Result& result) {
@@ -131,7 +139,7 @@ WrittenFiles write_files(const RunPlan& plan, const Result& result) {
 
 /// Writes what the session came to, also after a fault: then of the points stored before it. Whatever cannot be written
 /// keeps nothing else from it.
-int conclude(const RunPlan& plan, Host& host, std::FILE* words) {
+int conclude(const RunPlan& plan, Host& host, const Words& words) {
   const SessionResult session = host.finish();
   if (session.error) say(session.error.message);
   // A session that was refused is not this run's to report on.
@@ -153,7 +161,8 @@ int conclude(const RunPlan& plan, Host& host, std::FILE* words) {
   const bool told = tell(words, text, plan);
   for (const Failure& failure : files.failures) say(failure.message);
   if (session.error) return exit_code_of(session.error);
-  return told && files.failures.empty() ? exit_code_of(result) : kDeviceFailure;
+  if (!files.failures.empty()) return exit_code_of(files.failures.front());
+  return told ? exit_code_of(result) : kDeviceFailure;
 }
 
 /// Removes what killed runs left of the files of this one. The session is locked: nobody else writes them now.
@@ -167,9 +176,9 @@ std::vector<std::string> stray_parts(const RunPlan& plan) {
 
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
-  std::FILE* const words = plan.json == "-" ? stderr : stdout;
-  tell_notes(plan.design, words);
-  if (!plan.fit.note.empty()) fmt::print(words, "{}", plan.fit.note);
+  const Words words(plan.json == "-" ? stderr : stdout);
+  tell_notes(plan.design, words.file);
+  if (!plan.fit.note.empty()) fmt::print(words.file, "{}", plan.fit.note);
 
   const StopFlag stop;
   Notices notices(plan.headless);
@@ -180,8 +189,8 @@ int run(const RunFlags& flags) {
     say(fmt::format("{}: left by a run that was killed; removed", part));
   const std::string begun = fmt::format("Points from {}, session in {}, panel at {}\n", source_name(plan.source),
                                         plan.host.session_directory, panel_address(plan, host));
-  std::fputs(begun.c_str(), words);
-  std::fflush(words);
+  std::fputs(begun.c_str(), words.file);
+  std::fflush(words.file);
   watch(host, plan, stop);
   notices.flush();
   const int exit_code = conclude(plan, host, words);

@@ -50,12 +50,12 @@ Failure check_journal_kind(const std::string& path, const JournalHeader& header)
   if (header.magic != kJournalMagic) {
     return bad_input(fmt::format("{}: is no journal of a session; name another session folder", path));
   }
-  if (header.version == kJournalVersion) return {};
-  const char* why = header.version < kJournalVersion ? ", which does not tell of every lost point" : "";
+  if (header.version >= kOldestJournalVersion && header.version <= kJournalVersion) return {};
+  const char* why = header.version < kOldestJournalVersion ? ", which does not tell of lost points" : "";
   return bad_input(
-      fmt::format("{}: journal of format version {}{}; this program reads version {}: use the program that wrote it, "
-                  "or name another session folder",
-                  path, header.version, why, kJournalVersion));
+      fmt::format("{}: journal of format version {}{}; this program reads versions {} to {}: use the program that "
+                  "wrote it, or name another session folder",
+                  path, header.version, why, kOldestJournalVersion, kJournalVersion));
 }
 
 }  // namespace bladefit

@@ -14,8 +14,8 @@ bool kind_is_known(EventKind kind) { return kind >= EventKind::point && kind <= 
 
 }  // namespace
 
-JournalHeader make_journal_header(const SessionIdentity& identity, std::uint32_t run_id) {
-  JournalHeader header{kJournalMagic, kJournalVersion, identity.design_crc, identity.config_digest, run_id, 0};
+JournalHeader make_journal_header(const SessionIdentity& identity, std::uint32_t run_id, std::uint32_t version) {
+  JournalHeader header{kJournalMagic, version, identity.design_crc, identity.config_digest, run_id, 0};
   header.crc = crc_before(header, offsetof(JournalHeader, crc), 0);
   return header;
 }

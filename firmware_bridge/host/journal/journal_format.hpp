@@ -13,6 +13,8 @@ namespace bladefit {
 inline constexpr std::array<char, 8> kJournalMagic = {'B', 'F', 'J', 'R', 'N', 'L', '\r', '\n'};
 /// Version 6: a record of the device that is given up is told at once, and not by the point after it alone.
 inline constexpr std::uint32_t kJournalVersion = 6;
+/// Older ones that are read: version 5 has all of it but that.
+inline constexpr std::uint32_t kOldestJournalVersion = 5;
 
 /// What a session is bound to: its points mean something for this design and these settings only.
 struct SessionIdentity {
@@ -45,7 +47,8 @@ struct JournalRecord {
 static_assert(sizeof(JournalHeader) == 32 && sizeof(JournalRecord) == 80);
 static_assert(std::endian::native == std::endian::little, "the journal is written in the byte order of the host");
 
-[[nodiscard]] JournalHeader make_journal_header(const SessionIdentity& identity, std::uint32_t run_id);
+[[nodiscard]] JournalHeader make_journal_header(const SessionIdentity& identity, std::uint32_t run_id,
+                                                std::uint32_t version = kJournalVersion);
 [[nodiscard]] bool header_is_whole(const JournalHeader& header);
 
 /// `place` counts records from 1: a record that has moved within the file is as bad as a damaged one. `group` is the

@@ -21,7 +21,7 @@
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kTold = 4;
+constexpr std::size_t kTold = 3;
 constexpr const char* kDigestName = "digest";
 constexpr const char* kBetween = " = ";
 

@@ -73,9 +73,10 @@ PanelState Publication::shown() {
   return common_.shown;
 }
 
-void Publication::conclude(const BladeVerdict& verdict) {
+void Publication::conclude(const BladeVerdict& verdict, std::shared_ptr<const Tally> judged_again) {
   const std::lock_guard lock(common_.mutex);
   common_.concluded = verdict;
+  common_.judged_again = std::move(judged_again);
 }
 
 /// True where there were any.
@@ -123,15 +124,15 @@ void Publication::update_state() {
 }
 
 void Publication::update_counts() {
-  const TallyCounts& counts = tally_.counts();
+  const TallyCounts& counts = tally().counts();
   state_.points = counts.points;
   state_.leading_edge_points = counts.leading_edge;
   state_.leading_edge_out = counts.leading_edge_out;
   state_.rest_out = counts.rest_out;
   state_.rejected = counts.rejected;
   const bool at_rest = figures_.report.status == FitStatus::converged;
-  const Verdict none, *const edge = tally_.worst(Region::leading_edge, at_rest),
-                             *const rest = tally_.worst(Region::rest, at_rest);
+  const Verdict none, *const edge = tally().worst(Region::leading_edge, at_rest),
+                             *const rest = tally().worst(Region::rest, at_rest);
   state_.worst_leading_edge = to_float((edge != nullptr ? *edge : none).foot.distance);
   state_.worst_leading_edge_sequence = (edge != nullptr ? *edge : none).sequence;
   state_.worst_rest = to_float((rest != nullptr ? *rest : none).foot.distance);
@@ -160,7 +161,7 @@ void Publication::update_fit() {
 
 void Publication::update_verdict() {
   const FitReport& report = figures_.report;
-  const TallyCounts& counts = tally_.counts();
+  const TallyCounts& counts = tally().counts();
   const BladeVerdict counted =
       judge_blade({.converged = report.status == FitStatus::converged,
                    .infeasible = report.status == FitStatus::infeasible,
@@ -173,7 +174,7 @@ void Publication::update_verdict() {
                    .undecided = counts.undecided,
                    .lost = figures_.losses.records() + (figures_.losses.unnumbered() ? 1U : 0U),
                    .refused = counts.refused,
-                   .zones_missed = tally_.zones().missed(),
+                   .zones_missed = tally().zones().missed(),
                    .finished = figures_.losses.finished(),
                    .doubts = {}});
   const BladeVerdict verdict = common_.concluded.value_or(counted);
@@ -198,7 +199,7 @@ void Publication::update_last() {
 
 void Publication::update_places() {
   state_.newest.fill({});
-  const std::vector<Verdict> out = tally_.newest_leading_edge_out();
+  const std::vector<Verdict> out = tally().newest_leading_edge_out();
   for (std::size_t place = 0; place < std::min(out.size(), kPanelPlaces); ++place) {
     state_.newest[place] = place_of(out[place], axis_);
   }

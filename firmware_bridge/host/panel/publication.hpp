@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -25,11 +26,13 @@ class Publication {
   [[nodiscard]] PanelState shown();
 
   /// The verdict on the blade when the session has ended, with what was found against its fit elsewhere: it stands
-  /// instead of that which follows from counts and fit. Any thread.
-  void conclude(const BladeVerdict& verdict);
+  /// instead of that which follows from counts and fit. `judged_again`, where there is one, counts every point at the
+  /// final pose. Any thread.
+  void conclude(const BladeVerdict& verdict, std::shared_ptr<const Tally> judged_again);
 
  private:
   using Clock = std::chrono::steady_clock;
+  [[nodiscard]] const Tally& tally() const { return common_.judged_again ? *common_.judged_again : tally_; }
   [[nodiscard]] bool take_news();
   void show();
   void linger();
@@ -65,6 +68,7 @@ class Publication {
     std::mutex mutex;
     PanelState shown;
     std::optional<BladeVerdict> concluded;
+    std::shared_ptr<const Tally> judged_again;
   } common_;
   Clock::time_point start_ = Clock::now();
 };

@@ -95,7 +95,7 @@ const Verdict* Tally::worst(Region region, bool with_pending) const {
   Worst& worst = worst_of(region, with_pending);
   if (worst.stale) {
     worst.verdict = worst.given_up;
-    for (const Verdict& verdict : verdicts()) {
+    for (const auto& [sequence, verdict] : verdicts_) {
       if (takes_part(verdict, region, with_pending) && is_farther(verdict, worst.verdict)) worst.verdict = verdict;
     }
     worst.stale = false;

@@ -4,7 +4,6 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <vector>
 
 #include "core/inspection/blade_verdict.hpp"
@@ -46,8 +45,8 @@ class Tally {
   /// the farthest one has come nearer.
   [[nodiscard]] const Verdict* worst(Region region, bool with_pending) const;
 
-  /// Verdicts that may change, in rising order of sequence.
-  [[nodiscard]] auto verdicts() const { return std::views::values(verdicts_); }
+  /// Verdicts that may change, by their sequence.
+  [[nodiscard]] const std::map<std::uint32_t, Verdict>& verdicts() const { return verdicts_; }
 
   /// Null when the sequence is unknown, or given up.
   [[nodiscard]] const Verdict* find(std::uint32_t sequence) const;

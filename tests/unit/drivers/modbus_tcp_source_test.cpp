@@ -41,6 +41,24 @@ TEST(ModbusTcp, GoesOnBehindWhatIsStored) {
   EXPECT_EQ(collect_checked(*source, 2), counted(8, 9));
 }
 
+TEST(ModbusTcp, GoesOnAfterAsManyBadRecordsAsTheRingHolds) {
+  TcpMachine machine;
+  machine.registers.probe(kCapacity);
+  for (std::size_t slot = 0; slot < kCapacity; ++slot) machine.registers.set(100 + slot * 20 + 19, 1);
+  ModbusSettings settings = machine.settings();
+  settings.record_tries = 3;
+  const auto source = make_source(settings);
+  ASSERT_EQ(source->open(0, 0).message, "");
+  for (int turn = 0; turn < 200 && source->status().last < kCapacity; ++turn)
+    EXPECT_EQ(collect(*source, 1, milliseconds(10)), Sequences{});
+  EXPECT_EQ(source->status().last, kCapacity) << source->status().last_fault;
+  EXPECT_EQ(source->status().losses, kCapacity);
+  source->acknowledge(source->status().last);
+  machine.registers.probe(kCapacity + 4);
+  EXPECT_EQ(collect_checked(*source, 4), counted(kCapacity + 1, kCapacity + 4));
+  EXPECT_EQ(machine.registers.holding(1), kCapacity);
+}
+
 TEST(ModbusTcp, ADeviceThatNumbersAnewIsToldOfNoRecordBeyondItsOwn) {
   TcpMachine machine;
   machine.registers.probe(8);

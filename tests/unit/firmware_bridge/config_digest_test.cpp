@@ -80,8 +80,8 @@ TEST(ConfigDigest, JournalsOfTheVersionBeforeAreRefusedInOneLine) {
   EXPECT_EQ(error.kind, Failure::Kind::bad_input);
   EXPECT_FALSE(content.exists);
   EXPECT_EQ(error.message, path +
-                               ": journal of format version 4, which does not tell of every lost point; "
-                               "this program reads version 6: use the program that wrote it, or name another "
+                               ": journal of format version 4, which does not tell of lost points; "
+                               "this program reads versions 5 to 6: use the program that wrote it, or name another "
                                "session folder");
   std::filesystem::remove_all(folder);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "firmware_bridge/host/fit/recent_alarms.hpp"
 #include "tests/unit/firmware_bridge/fixtures.hpp"
@@ -49,6 +50,37 @@ TEST(BridgeFitStream, ResetForgetsEverythingAndAReplayGivesTheSameBits) {
   EXPECT_TRUE(given);
   EXPECT_EQ(localizer->fit().points, 100U);
   EXPECT_EQ(std::bit_cast<std::uint64_t>(localizer->fit().rms_mm), std::bit_cast<std::uint64_t>(first.rms_mm));
+}
+
+TEST(LocalizerPlaces, APointThatLostItsPlaceIsJudgedAsideAndChangesNothing) {
+  LocalizerConfig config = blade_config();
+  config.capacity = 64;
+  std::vector<std::byte> memory(Localizer::memory_required(config) + 64);
+  void* start = memory.data();
+  std::size_t space = memory.size();
+  std::align(64, Localizer::memory_required(config), start, space);
+  Localizer* localizer = nullptr;
+  ASSERT_EQ(Localizer::create({static_cast<std::byte*>(start), space}, blade(), config, localizer), Status::ok);
+  const std::vector<ProbePoint> points = measured_points(400);
+  std::uint32_t displaced = 0;
+  Verdict verdict;
+  for (const ProbePoint& point : points) {
+    ASSERT_TRUE(succeeded(localizer->push(point, verdict)));
+    if (localizer->displaced() != 0) displaced = localizer->displaced();
+  }
+  ASSERT_GT(displaced, 0U);
+  EXPECT_EQ(localizer->verdict_of(displaced, verdict), Status::not_found);
+  const FitReport before = localizer->fit();
+  ASSERT_EQ(localizer->judge_aside(points[displaced - 1], verdict), Status::ok);
+  EXPECT_EQ(verdict.sequence, displaced);
+  EXPECT_TRUE(has_foot(verdict));
+  EXPECT_EQ(verdict.revision, before.revision);
+  EXPECT_EQ(localizer->fit().rest.judged_out, before.rest.judged_out);
+  EXPECT_EQ(localizer->fit().rejected, before.rejected);
+  EXPECT_EQ(localizer->fit().points, before.points);
+  ProbePoint none = points[0];
+  none.position[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(localizer->judge_aside(none, verdict), Status::not_finite);
 }
 
 TEST(BridgeRecentAlarms, KeepTheNewestLeadingEdgePointsThatAreOut) {

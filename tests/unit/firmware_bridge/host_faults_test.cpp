@@ -1,7 +1,8 @@
 // What befalls a session from outside: losses, other settings, a journal that is removed, a full memory.
 #include <gtest/gtest.h>
 
-#include <mutex>
+#include <algorithm>
+#include <thread>
 
 #include "core/fit/pose.hpp"
 #include "tests/unit/firmware_bridge/fixtures.hpp"
@@ -86,7 +87,7 @@ TEST(HostFaults, OtherSettingsAreNamedWithBothValues) {
       << message;
   std::filesystem::remove(folder / "session/settings.txt");
   const std::string plain = result_of_session(other, again).error.message;
-  EXPECT_NE(plain.find("started with other fit settings; repeat those"), std::string::npos) << plain;
+  EXPECT_NE(plain.find("begun with other fit settings; repeat those"), std::string::npos) << plain;
 }
 
 /// Each foot is that of the point at the final pose: its distance from the point is the distance told.
@@ -106,6 +107,30 @@ TEST(HostFaults, WithAFullMemoryEveryPointIsJudgedAtTheFinalPose) {
     const Vec3 at = apply(result.report.pose, Vec3(result.points[k].position.data()));
     EXPECT_NEAR((at - verdict.foot.point).norm(), std::abs(verdict.foot.distance), 1e-7) << verdict.sequence;
   }
+}
+
+TEST(HostFaults, WithAFullMemoryThePanelEndsWithTheCountsOfTheResult) {
+  const ScratchFolder folder;
+  HostSettings settings = settings_for(folder / "session");
+  settings.localizer.capacity = 64;
+  settings.localizer.tolerance.leading_edge_mm = 0.03;
+  ScriptedSource source(measured_points(400));
+  Host host(settings, blade(), source, {});
+  ASSERT_FALSE(host.start());
+  ASSERT_TRUE(host.wait_for_end(60s));
+  const SessionResult result = host.finish();
+  const auto out = static_cast<std::uint32_t>(std::ranges::count_if(result.verdicts, [](const Verdict& verdict) {
+    return verdict.state == PointState::out && verdict.region == Region::leading_edge;
+  }));
+  EXPECT_GT(out, 0U);
+  BladeVerdict verdict;
+  verdict.reasons.add(Reason::ambiguous);
+  host.conclude(verdict);
+  const auto until = std::chrono::steady_clock::now() + 10s;
+  while ((host.panel_state().reasons & kReasonAmbiguous) == 0 && std::chrono::steady_clock::now() < until)
+    std::this_thread::sleep_for(5ms);
+  EXPECT_EQ(host.panel_state().leading_edge_out, out);
+  EXPECT_EQ(host.panel_state().points, 400U);
 }
 
 }  // namespace

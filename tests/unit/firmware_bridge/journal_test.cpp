@@ -164,9 +164,20 @@ TEST(BridgeJournal, RefusesForeignFilesAndOtherVersions) {
   JournalHeader header = make_journal_header(kIdentity, kRun);
   header.version = kJournalVersion + 1;
   write_whole(path, std::string(reinterpret_cast<const char*>(&header), sizeof header));
-  EXPECT_NE(read_journal(path, content).message.find("this program reads version 6"), std::string::npos);
+  EXPECT_NE(read_journal(path, content).message.find("this program reads versions 5 to 6"), std::string::npos);
   EXPECT_FALSE(read_journal(folder / "missing.bin", content));
   EXPECT_FALSE(content.exists);
+}
+
+TEST(BridgeJournal, ReadsTheVersionBefore) {
+  const ScratchFolder folder;
+  const std::string path = make_journal(folder, 3);
+  std::string bytes = read_whole(path);
+  JournalHeader header = make_journal_header(kIdentity, kRun, kOldestJournalVersion);
+  write_whole(path, std::string(reinterpret_cast<const char*>(&header), sizeof header) + bytes.substr(sizeof header));
+  JournalContent content;
+  ASSERT_FALSE(read_journal(path, content));
+  EXPECT_EQ(content.events.size(), 4U);
 }
 
 TEST(BridgeJournal, IsHeldByOneHostAtATime) {

@@ -51,6 +51,22 @@ TEST(OutliersNamed, ManyThatLieTogetherDoNotHideEachOther) {
   EXPECT_EQ(named(points), wrong);
 }
 
+/// Of so many points the robust fit takes some; the others are judged at its pose.
+TEST(OutliersNamed, AlsoAmongPointsThatTheRobustFitLeavesOut) {
+  const std::vector<ProbePoint> good = good_points();
+  std::vector<ProbePoint> points;
+  for (std::uint32_t k = 0; k < 17000; ++k) {
+    points.push_back(good[k % good.size()]);
+    points.back().sequence = k + 1;
+  }
+  std::set<std::uint32_t> wrong;
+  for (std::size_t at = 8000; at < 8060; ++at) {
+    put_off(points[at], 3.0);
+    wrong.insert(points[at].sequence);
+  }
+  EXPECT_EQ(named(points), wrong);
+}
+
 TEST(OutliersNamed, NobodyWhereTheScaleIsThatOfRounding) {
   FitReport report;
   report.determined = 6;
