@@ -1,7 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <string>
+#include <system_error>
 
 #include "tools/commands/compile_command.hpp"
 #include "tools/commands/localize_command.hpp"
@@ -14,6 +17,7 @@
 #include "tools/commands/simulate_command.hpp"
 #include "tools/commands/split_command.hpp"
 #include "tools/files/exit_codes.hpp"
+#include "tools/files/message.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace {
@@ -25,6 +29,17 @@ constexpr const char* kFooter =
     "Exit codes: 0 done, in tolerance or nothing to judge, 1 the blade is out of tolerance, 2 wrong use or bad input, "
     "3 "
     "device or I/O failure, 4 not decided: the reasons stand below the verdict.";
+
+void tell(const std::string& message) { std::fprintf(stderr, "bladefit: %s\n", bladefit::one_line(message).c_str()); }
+
+/// What is wrong with the command line. Of a value that is no number the parser says `--ratio = abc`.
+std::string words_of(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::size_t place = text.find(": "), equal = text.find(" = ");
+  const bool conversion = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr;
+  if (!conversion || place == std::string::npos || equal == std::string::npos) return text;
+  return text.substr(place + 2, equal - place - 2) + ": '" + text.substr(equal + 3) + "' is not a number";
+}
 
 /// Takes the command line apart and runs what it asks for; returns the exit code.
 int run(int argc, char** argv) {
@@ -50,26 +65,44 @@ int run(int argc, char** argv) {
     const std::string first = argc > 1 ? argv[1] : "";
     const auto named = [&first](const CLI::App* command) { return command->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named).empty()) {
-      std::fprintf(stderr, "bladefit: '%s' is no command; `bladefit --help` lists them\n", first.c_str());
+      tell("'" + first + "' is no command; `bladefit --help` lists them");
       return bladefit::kBadInput;
     }
-    std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n",
-                 error.what());
+    tell(words_of(error) + "; `bladefit --help` and `bladefit COMMAND --help` list what there is");
     return bladefit::kBadInput;
   }
   return exit_code;
 }
 
-}  // namespace
+/// What was printed is out only when the stream has been emptied: a full disk shows here at the latest.
+int checked_output(int exit_code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  tell("standard output: cannot be written; check free space, or what reads it");
+  return bladefit::kDeviceFailure;
+}
 
-int main(int argc, char** argv) {
+/// Runs the command; what ends it early is told in one line.
+int run_and_tell(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const bladefit::ToolError& error) {
-    std::fprintf(stderr, "bladefit: %s\n", error.what());
+    tell(error.what());
     return error.exit_code();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bladefit: %s\n", error.what());
+  } catch (const std::bad_alloc&) {
+    tell("there is not enough memory for this; give fewer points, or a smaller design");
+  } catch (const std::filesystem::filesystem_error& error) {
+    tell(error.path1().string() + ": " + error.code().message() + "; check the name and its permissions");
+  } catch (const std::system_error& error) {
+    // A stream that failed is told of when it is closed.
+    if (std::ferror(stdout) == 0)
+      tell("the system refuses: " + error.code().message() + "; check disk, memory and permissions");
+  } catch (const std::exception&) {
+    tell("an unexpected fault in bladefit; please report the command and its files");
     return bladefit::kBadInput;
   }
+  return bladefit::kDeviceFailure;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return checked_output(run_and_tell(argc, argv)); }

@@ -19,7 +19,8 @@ namespace {
 constexpr std::array<std::string_view, 7> kColumns = {"x", "y", "z", "design_x", "design_y", "design_z", "name"};
 constexpr std::size_t kNameColumn = 6;
 constexpr std::string_view kMend = "the first line must name the columns: [name,]x,y,z,design_x,design_y,design_z";
-constexpr CsvFormat kFormat{kColumns, kNameColumn, 0, kMend};
+constexpr CsvFormat kFormat{
+    .columns = kColumns, .needed = kNameColumn, .together = 0, .first_length = 0, .lengths = kNameColumn, .fix = kMend};
 /// Pairs whose rests are this share of their spread, in root mean squares, do not belong together: marks are picked to
 /// some hundredths of a blade.
 constexpr double kWorstRest = 0.05;
@@ -38,21 +39,16 @@ using Points = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 Pair parse_pair(const CsvRow& row) {
   Pair pair;
   pair.name = fmt::format("line {}", row.place.line);
-  for (std::size_t k = 0; k < row.cells.size(); ++k) {
-    if (row.columns[k] == kNameColumn) {
-      pair.name = std::string(row.cells[k]);
-      continue;
-    }
-    double value = 0;
-    if (const Failure failure = finite_cell(row, k, kFormat, value)) throw ToolError(failure);
-    pair.numbers[row.columns[k]] = value;
+  if (!row.values[kNameColumn].empty()) pair.name = std::string(row.values[kNameColumn]);
+  for (std::size_t k = 0; k < kNameColumn; ++k) {
+    if (const Failure failure = finite_cell(row, k, kFormat, pair.numbers[k])) throw ToolError(failure);
   }
   return pair;
 }
 
-std::vector<Pair> parse_pairs(std::string_view text, const std::string& name) {
+std::vector<Pair> parse_pairs(std::string_view text, const std::string& name, CsvHeader& header) {
   std::vector<Pair> pairs;
-  const Failure failure = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
+  const Failure failure = read_csv_table(text, name, kFormat, {}, header, [&](const CsvRow& row) {
     pairs.push_back(parse_pair(row));
     return Failure();
   });
@@ -99,16 +95,21 @@ void check_rests(const std::vector<Pair>& pairs, const std::vector<double>& rest
 
 }  // namespace
 
-StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
-  const std::vector<Pair> pairs = parse_pairs(read_text(path, "start pairs"), path);
+StartPairs read_start_pairs(const std::string& path, const PointsFormat& format) {
+  CsvHeader header;
+  const std::vector<Pair> pairs = parse_pairs(read_text(path, "start pairs"), path, header);
+  Unit unit = format.unit;
+  if (const Failure failure = choose_unit(header, format.given_unit, format.unit, unit))
+    throw ToolError(fmt::format("{}: {}", path, failure.message));
+  const double mm = mm_per_unit(unit);
   if (pairs.size() < 3)
     throw ToolError(fmt::format("{}: {} pairs, at least 3 are needed; add a line for each pair", path, pairs.size()));
   Points measured(3, pairs.size()), design(3, pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
-      measured(row, column) = mm_per_unit * pairs[k].numbers[i];
-      design(row, column) = mm_per_unit * pairs[k].numbers[3 + i];
+      measured(row, column) = mm * pairs[k].numbers[i];
+      design(row, column) = mm * pairs[k].numbers[3 + i];
     }
   }
   check_spread(measured, "measured", path);
@@ -116,6 +117,7 @@ StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
   const Eigen::Matrix4d motion = Eigen::umeyama(measured, design, false);
   StartPairs out;
   out.count = pairs.size();
+  out.note = header.unused_note();
   // Through its Euler angles the rotation is orthogonal to rounding.
   out.pose.rotation = rotation_of(euler_angles(Mat3(motion.topLeftCorner<3, 3>())));
   out.pose.translation = motion.topRightCorner<3, 1>();
@@ -126,7 +128,7 @@ StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
   double square = 0.0;
   for (const double rest : rests) square += rest * rest;
   out.rms_mm = std::sqrt(square / static_cast<double>(pairs.size()));
-  check_rests(pairs, rests, out.rms_mm, spread_of(design), mm_per_unit, path);
+  check_rests(pairs, rests, out.rms_mm, spread_of(design), mm, path);
   return out;
 }
 

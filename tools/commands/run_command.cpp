@@ -15,6 +15,7 @@
 #include "tools/commands/run_plan.hpp"
 #include "tools/commands/run_stop_flag.hpp"
 #include "tools/files/exit_codes.hpp"
+#include "tools/files/message.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/panel/panel_display.hpp"
 #include "tools/results/json_writer.hpp"
@@ -47,7 +48,7 @@ class Notices {
   }
 
  private:
-  static void print(const std::string& line) { fmt::print(stderr, "bladefit: {}\n", line); }
+  static void print(const std::string& line) { fmt::print(stderr, "bladefit: {}\n", one_line(line)); }
 
   bool at_once_;
   std::mutex mutex_;
@@ -55,7 +56,7 @@ class Notices {
 };
 
 /// Says it and goes on: what was stored before it is still reported on.
-void report(const Failure& failure) { fmt::print(stderr, "bladefit: {}\n", failure.message); }
+void report(const Failure& failure) { fmt::print(stderr, "bladefit: {}\n", one_line(failure.message)); }
 
 int exit_code_of(const Failure& failure) { return ToolError(failure).exit_code(); }
 
@@ -106,7 +107,7 @@ int conclude(const RunPlan& plan, const SessionResult& session, std::FILE* words
   const Result result = result_of(plan.image, plan.fit, session.points, session.report, session.verdicts, stream,
                                   plan.host.session_directory);
   const std::vector<std::string> files = write_session_files(plan.host.session_directory, result);
-  if (!plan.json.empty()) write_output(plan.json, result_json(result), "result");
+  if (!plan.json.empty()) write_output(plan.json, result_json(result));
   fmt::print(words, "Session ended: {}\n{}", ending(session), operator_summary(result));
   for (const std::string& file : files) fmt::print(words, "Written: {}\n", file);
   if (!plan.json.empty() && plan.json != "-") fmt::print(words, "Written: {}\n", plan.json);

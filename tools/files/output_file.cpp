@@ -14,15 +14,25 @@
 namespace bladefit {
 namespace {
 
-/// The file that `path` means: where it is a link, the file behind it. Devices and folders must not be replaced.
+constexpr std::string_view kStandardOutput = "-";
+
+/// What is written to as it comes: nothing can be moved in its place.
+bool is_stream(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  return path == kStandardOutput || std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status);
+}
+
+/// The file that `path` means: where it is a link, the file behind it. Folders must not be replaced.
 std::filesystem::path resolve(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return path;
+  if (!std::filesystem::exists(status) || is_stream(path)) return path;
   if (!std::filesystem::is_regular_file(status)) {
     throw ToolError(fmt::format("{}: is not a regular file; give another output name", path.string()));
   }
-  return std::filesystem::canonical(path);
+  const std::filesystem::path place = std::filesystem::canonical(path, error);
+  return error ? path : place;
 }
 
 /// One name for every way to spell a place. Where the first folder of a relative path is missing, weakly_canonical
@@ -35,12 +45,13 @@ std::filesystem::path place_of(const std::filesystem::path& path) {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw ToolError(fmt::format("{}: cannot be written: {}; check folder, permissions and free space", path.string(),
+  const std::string name = path == kStandardOutput ? "standard output" : path.string();
+  throw ToolError(fmt::format("{}: cannot be written: {}; check folder, permissions and free space", name,
                               std::generic_category().message(error)),
                   ToolError::Kind::device);
 }
 
-/// Writes and syncs all of `content`; returns 0 or the error of the operating system.
+/// Writes all of `content`; returns 0 or the error of the operating system.
 int write_all(int descriptor, std::string_view content) {
   while (!content.empty()) {
     const ssize_t written = ::write(descriptor, content.data(), content.size());
@@ -48,17 +59,33 @@ int write_all(int descriptor, std::string_view content) {
     if (written < 0) return errno;
     content.remove_prefix(static_cast<std::size_t>(written));
   }
-  return ::fsync(descriptor) == 0 ? 0 : errno;
+  return 0;
+}
+
+/// Writes to what is open already, or to what `path` names.
+void write_stream(const std::filesystem::path& path, std::string_view content) {
+  const bool standard = path == kStandardOutput;
+  if (standard && std::fflush(stdout) != 0) fail(path, errno);
+  const int descriptor = standard ? STDOUT_FILENO : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, errno);
+  const int error = write_all(descriptor, content);
+  const int close_error = standard || ::close(descriptor) == 0 ? 0 : errno;
+  if (error != 0 || close_error != 0) fail(path, error != 0 ? error : close_error);
 }
 
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& path, std::string_view content) : path_(resolve(path)) {
+  if (is_stream(path_)) {
+    streamed_ = content;
+    return;
+  }
   temporary_ = path_;
   temporary_ += fmt::format(".partial-{}", ::getpid());
   const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(path_, errno);
-  const int error = write_all(descriptor, content);
+  const int write_error = write_all(descriptor, content);
+  const int error = write_error != 0 || ::fsync(descriptor) == 0 ? write_error : errno;
   const int close_error = ::close(descriptor) == 0 ? 0 : errno;
   if (error == 0 && close_error == 0) return;
   ::unlink(temporary_.c_str());
@@ -70,23 +97,15 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::commit() {
+  if (temporary_.empty()) return write_stream(path_, streamed_);
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
   temporary_.clear();
 }
 
-void write_output(const std::string& path, std::string_view content, std::string_view what) {
-  if (path != "-") {
-    OutputFile(path, content).commit();
-    return;
-  }
-  const bool written = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
-  if (!written || std::fflush(stdout) != 0) {
-    throw ToolError(fmt::format("standard output: cannot write the {}", what), ToolError::Kind::device);
-  }
-}
+void write_output(const std::string& path, std::string_view content) { OutputFile(path, content).commit(); }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  return !a.empty() && !b.empty() && place_of(a) == place_of(b);
+  return !a.empty() && !b.empty() && a != kStandardOutput && place_of(a) == place_of(b);
 }
 
 void refuse_overwriting(const std::filesystem::path& output, std::string_view what,

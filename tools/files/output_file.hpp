@@ -9,8 +9,8 @@ namespace bladefit {
 /// moved in place by commit(). Without commit() nothing is left behind.
 class OutputFile {
  public:
-  /// Writes `content`. Throws ToolError (device) where that fails, and bad_input where `path` is something else
-  /// than a regular file or a new name.
+  /// Writes `content`. Throws ToolError (device) where that fails, and bad_input where `path` is a folder or something
+  /// else that has no content of its own. To standard output ("-"), a device or a pipe commit() writes.
   OutputFile(const std::filesystem::path& path, std::string_view content);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -21,11 +21,11 @@ class OutputFile {
 
  private:
   std::filesystem::path path_, temporary_;
+  std::string streamed_;  ///< what commit() is to write where nothing can be moved in place
 };
 
-/// Writes `content` to the file `path`, as a whole or not at all, or to standard output where that is "-"; `what` says
-/// in messages what it is. Throws ToolError as OutputFile does.
-void write_output(const std::string& path, std::string_view content, std::string_view what);
+/// Writes and commits an OutputFile. Throws ToolError as it does.
+void write_output(const std::string& path, std::string_view content);
 
 /// True where both name the same place, whether something stands there or not. Empty names are no place.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -242,9 +242,9 @@ TEST(DeviceFile, TakesEveryPathFromItsFolder) {
 TEST(DeviceFile, LeavesTheUnitsOfARecordingToTheCallerWhereItDoesNotGiveThem) {
   SourceSettings settings;
   ASSERT_EQ(load_device(File("kind = \"replay\"\n").path, settings).message, "");
-  EXPECT_EQ(std::get<ReplaySettings>(settings).mm_per_unit, std::nullopt);
+  EXPECT_EQ(std::get<ReplaySettings>(settings).format.given_unit, std::nullopt);
   ASSERT_EQ(load_device(File("kind = \"replay\"\n[replay]\nunits = \"mm\"\n").path, settings).message, "");
-  EXPECT_EQ(std::get<ReplaySettings>(settings).mm_per_unit, 1);
+  EXPECT_EQ(std::get<ReplaySettings>(settings).format.given_unit, Unit::mm);
 }
 
 TEST(LeadingEdge, IsReadAsOnTheCommandLine) {

@@ -111,7 +111,7 @@ TEST(FitOptions, EveryWordIsTheEnumeratorOfItsPlace) {
   EXPECT_EQ(word_of(Loss::tukey), "tukey");
   EXPECT_EQ(word_of(EdgePolicy::use), "use");
   EXPECT_EQ(word_of(RegionPolicy::fixed), "fixed");
-  EXPECT_EQ(word_of(DesignUnit::inch), "in");
+  EXPECT_EQ(word_of(Unit::inch), "in");
   const auto& outward = std::get<ChoiceOption<OutwardOption>>(option_of("outward").kind);
   ASSERT_FALSE(set(outward, "-", settings));
   EXPECT_EQ(settings.outward, OutwardOption::minus);
