@@ -206,6 +206,7 @@ void TableReader::read(std::string_view key, double& value, NumberRange range) {
 }
 
 std::string TableReader::from_folder(const std::string& path) const {
+  if (path == "-") return path;
   return std::filesystem::path(document_->name).parent_path() / path;
 }
 

@@ -154,7 +154,7 @@ const std::vector<BadInput>& bad_settings() {
         {"a.csv", "x,y,z,design_x,design_y,design_z\n0,0,0,1e300,0,0\n1,0,0,1e300,1,0\n0,1,0,1e300,0,1\n"}},
        localize("DIR/p.csv", {"--start", "DIR/a.csv"}),
        2,
-       "a.csv"},
+       "a.csv:2: column design_x: '1e300' is beyond"},
       {"a subset that names no row",
        {{"p.csv", kSheetPoints}, {"s.txt", "99999999999999999999999\n"}},
        localize("DIR/p.csv", {"--subset", "DIR/s.txt"}),

@@ -21,6 +21,8 @@ constexpr std::size_t kNameColumn = 6;
 constexpr std::string_view kMend = "the first line must name the columns: [name,]x,y,z,design_x,design_y,design_z";
 constexpr CsvFormat kFormat{
     .columns = kColumns, .needed = kNameColumn, .together = 0, .first_length = 0, .lengths = kNameColumn, .fix = kMend};
+/// No place on a machine is farther away, whatever the unit.
+constexpr double kLargestCoordinate = 1e9;
 /// Pairs whose rests are this share of their spread, in root mean squares, do not belong together: marks are picked to
 /// some hundredths of a blade.
 constexpr double kWorstRest = 0.05;
@@ -42,6 +44,9 @@ Pair parse_pair(const CsvRow& row) {
   if (!row.values[kNameColumn].empty()) pair.name = std::string(row.values[kNameColumn]);
   for (std::size_t k = 0; k < kNameColumn; ++k) {
     if (const Failure failure = finite_cell(row, k, kFormat, pair.numbers[k])) throw ToolError(failure);
+    if (std::abs(pair.numbers[k]) <= kLargestCoordinate) continue;
+    throw ToolError(row.place.say(fmt::format("column {}: {} is beyond {:g}; correct it", kColumns[k],
+                                              quoted(row.values[k]), kLargestCoordinate)));
   }
   return pair;
 }

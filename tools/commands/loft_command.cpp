@@ -71,8 +71,9 @@ void print_leading_edge(const BladeSections& sections) {
     fmt::print("  leading edge: not found, since the sections do not begin and end at one trailing edge\n");
     return;
   }
-  fmt::print("  leading edge: v {:.4f} to {:.4f}, for example --leading-edge v:{:.2f}:{:.2f}\n", edge->v_min,
-             edge->v_max, std::max(0.0, edge->v_min - kZone), std::min(1.0, edge->v_max + kZone));
+  fmt::print(
+      "  leading edge, opposite the ends of the sections: v {:.4f} to {:.4f}, as --leading-edge v:{:.2f}:{:.2f}\n",
+      edge->v_min, edge->v_max, std::max(0.0, edge->v_min - kZone), std::min(1.0, edge->v_max + kZone));
 }
 
 /// Of a surface that is not where its points are.

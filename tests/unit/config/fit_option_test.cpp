@@ -66,7 +66,7 @@ TEST(FitOptions, KeysAreDifferentAndHaveHelp) {
     EXPECT_GT(option.help.size(), 10U) << option.key;
     EXPECT_EQ(option.help.find("--"), std::string_view::npos) << option.key;
   }
-  EXPECT_EQ(keys.size(), 24U);
+  EXPECT_EQ(keys.size(), 25U);
   EXPECT_EQ(flag_of(option_of("leading_edge")), "--leading-edge");
 }
 
