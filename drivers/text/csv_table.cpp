@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "drivers/text/csv_cells.hpp"
@@ -13,6 +14,10 @@ namespace bladefit {
 namespace {
 
 constexpr std::size_t kLongestLine = 65536;
+
+/// What a comment calls the unit of the lengths.
+constexpr std::array<std::string_view, 5> kUnitKeys = {"unit", "units", "length unit", "length units",
+                                                       "unit of length"};
 
 using Cells = std::vector<std::string_view>;
 
@@ -105,10 +110,19 @@ class TableReading {
   /// `# units: in`, above the rows.
   Failure take_comment(std::string_view comment) {
     const std::string text = lower_case(comment);
-    const std::size_t word = text.find("unit"), sign = text.find_first_of(":=");
-    if (rows_ > 0 || word == std::string::npos || sign == std::string::npos || word > sign) return {};
-    const std::optional<Unit> unit = parse_unit(std::string_view(text).substr(sign + 1));
-    return unit ? merge_unit(header_, *unit) : Failure{};
+    const std::size_t sign = std::min(text.find_first_of(":="), text.size());
+    const std::string_view key = trimmed(std::string_view(text).substr(0, sign));
+    if (sign == text.size() || std::ranges::find(kUnitKeys, key) == kUnitKeys.end()) return {};
+    std::string_view word = std::string_view(text).substr(sign + 1);
+    word = trimmed(word.substr(0, word.find_last_not_of(",;") + 1));
+    const std::optional<Unit> unit = parse_unit(without_brackets(word));
+    if (!unit) {
+      return bad_input(
+          fmt::format("the unit {} is not known here; write mm, cm, m or in, or take the comment out", quoted(word)));
+    }
+    if (rows_ > 0 && header_.unit != unit)
+      return bad_input("a unit is given below the first values; put this line above them");
+    return merge_unit(header_, *unit);
   }
 
   /// `sep=;`, as spreadsheets write and read it.

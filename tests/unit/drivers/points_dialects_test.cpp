@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Dialect{"units in the names", "X [mm],Y (mm),z_mm\n1.5,-2,3.25\n40,5.0625,-0.6\n"},
         Dialect{"centimetres", "x (cm),y (cm),z (cm)\n.15,-.2,.325\n4,.50625,-.06\n"},
         Dialect{"a line of units", "x,y,z,path\n[mm],[mm],[mm],\n1.5,-2,3.25,1\n40,5.0625,-0.6,1\n"},
-        Dialect{"unit in a comment", "# Units: mm\nx,y,z\n1.5,-2,3.25\n40,5.0625,-0.6\n"},
+        Dialect{"unit in a comment", "# Blade unit no. 5: m\n# Units: [mm],,\nx,y,z\n1.5,-2,3.25\n40,5.0625,-0.6\n"},
         Dialect{"empty directions", "x,y,z,i,j,k,path,weight\n1.5,-2,3.25,,,,,\n40,5.0625,-0.6,,,,,\n"}));
 
 TEST(PointsUnits, AreThoseOfTheFirstLine) {
@@ -152,6 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
         Doubtful{"x [mm],y [in],z [mm]\n1,2,3\n", "a.csv:1: the unit in contradicts mm"},
         Doubtful{"x [furlong],y,z\n1,2,3\n", "a.csv:1: column 'x [furlong]': 'furlong' is no unit"},
         Doubtful{"# unit: in\nx [mm],y [mm],z [mm]\n1,2,3\n", "contradicts"},
+        Doubtful{"# Units: ft\nx,y,z\n1,2,3\n", "a.csv:1: the unit 'ft' is not known here"},
+        Doubtful{"x,y,z\n1,2,3\n# units = in\n", "a.csv:3: a unit is given below the first values"},
         Doubtful{"x,y,z\nmm,in,mm\n1,2,3\n", "a.csv:2: the lengths have different units"},
         Doubtful{"X_nom,Y_nom,Z_nom,X_act,Y_act,Z_act\n1,2,3,4,5,6\n", "column 'x' is missing among 'X_nom'"},
         Doubtful{"X,Y,Z,X,Y,Z\n1,2,3,4,5,6\n", "'x' is named twice"},
