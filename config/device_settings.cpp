@@ -15,9 +15,12 @@ namespace {
 
 constexpr NumberRange kPause{1, 600000};  ///< [ms]
 
-template <typename Units>
-void read_units(TableReader& table, Units& mm_per_unit) {
-  table.read_choice<Units>("units", mm_per_unit, {{"mm", 1.0}, {"in", kMmPerInch}});
+/// The choices of a key that says a unit: the unit, or what it is in mm.
+template <typename Value, typename Of>
+void read_units(TableReader& table, Value& value, Of of) {
+  std::vector<std::pair<std::string_view, Value>> choices;
+  for (const Unit unit : {Unit::mm, Unit::inch, Unit::cm, Unit::metre}) choices.emplace_back(word_of(unit), of(unit));
+  table.read_choice<Value>("units", value, choices);
 }
 
 void read_reconnect(TableReader& table, std::chrono::milliseconds& first, std::chrono::milliseconds& longest) {
@@ -85,7 +88,7 @@ void check_marks(TableReader& table, const std::string& marks) {
 }
 
 void read_dro(TableReader table, DroSettings& dro) {
-  read_units(table, dro.mm_per_unit);
+  read_units(table, dro.mm_per_unit, [](Unit unit) { return mm_per_unit(unit); });
   table.read("scale", dro.scale, NumberRange{1e-12, 1e12});
   dro.order_given = table.has("order");
   table.read("order", dro.order);
@@ -113,7 +116,10 @@ void read_dro(TableReader table, DroSettings& dro) {
 
 void read_replay(TableReader table, ReplaySettings& replay) {
   table.read_path("file", replay.file);
-  read_units(table, replay.mm_per_unit);
+  read_units(table, replay.format.given_unit, [](Unit unit) { return unit; });
+  table.read("columns", replay.format.columns);
+  if (const Failure failure = replay.format.columns.empty() ? Failure{} : check_point_columns(replay.format.columns))
+    table.fail("columns", failure.message);
   table.finish();
 }
 

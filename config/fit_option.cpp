@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "drivers/replay/points_csv.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -84,8 +86,14 @@ constexpr std::array kOptions{
     FitOption{"probe_radius", NumberOption{&S::probe_radius, 0, kLargest},
               [](const S& s, double mm, C& c) { c.probe_radius_mm = *s.probe_radius * mm; },
               "points are centres of a ball of this radius, in units (default 0)", "0.0", true},
-    FitOption{"units", ChoiceOption<DesignUnit>{&S::units, kDesignUnitWords}, nullptr,
-              "mm or in: of all lengths given and written (default: those of the design file)", "\"mm\""},
+    FitOption{"units", ChoiceOption<Unit>{&S::units, kUnitWords}, nullptr,
+              "mm, in, cm or m: of all lengths given and written (default: those of the design file; points whose file "
+              "says its unit with the names of its columns are in that)",
+              "\"mm\""},
+    FitOption{"columns", ColumnsOption{&S::columns}, nullptr,
+              "what the columns of the points file are where its first line does not say it: x, y, z and optionally i, "
+              "j, k, path, weight in their order, - for one that is not used",
+              "\"-,x,y,z\""},
     FitOption{"regions", ChoiceOption<RegionPolicy>{&S::regions, kRegionPolicyWords},
               [](const S& s, double, C& c) { c.regions = *s.regions; },
               "follow (default): a point's region is that of its present foot; fixed: of its foot at the least-squares "
@@ -223,6 +231,12 @@ Failure set(const AxisOption& option, const std::string& given, FitSettings& set
 }
 
 Failure set(const PathOption& option, const std::string& given, FitSettings& settings) {
+  settings.*option.value = given;
+  return {};
+}
+
+Failure set(const ColumnsOption& option, const std::string& given, FitSettings& settings) {
+  if (const Failure error = check_point_columns(given)) return error;
   settings.*option.value = given;
   return {};
 }

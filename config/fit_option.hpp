@@ -71,6 +71,12 @@ struct PathOption {
   std::string_view word = {};
 };
 
+/// Names of the columns of the points file, as check_point_columns() takes them.
+struct ColumnsOption {
+  using Given = std::string;
+  std::optional<std::string> FitSettings::*value;
+};
+
 /// Given or not on the command line, true or false in a file.
 struct FlagOption {
   using Given = bool;
@@ -78,9 +84,9 @@ struct FlagOption {
 };
 
 using FitOptionKind =
-    std::variant<NumberOption, ChoiceOption<FitMode>, ChoiceOption<OutwardOption>, ChoiceOption<DesignUnit>,
+    std::variant<NumberOption, ChoiceOption<FitMode>, ChoiceOption<OutwardOption>, ChoiceOption<Unit>,
                  ChoiceOption<RegionPolicy>, ChoiceOption<EdgePolicy>, ChoiceOption<Loss>, ChoiceOption<DecisionRule>,
-                 MpeOption, BoxesOption, WindowOption, LocksOption, AxisOption, PathOption, FlagOption>;
+                 MpeOption, BoxesOption, WindowOption, LocksOption, AxisOption, PathOption, ColumnsOption, FlagOption>;
 
 [[nodiscard]] Failure set(const NumberOption& option, double given, FitSettings& settings);
 [[nodiscard]] Failure set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings);
@@ -89,6 +95,7 @@ using FitOptionKind =
 [[nodiscard]] Failure set(const MpeOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const AxisOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const PathOption& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] Failure set(const ColumnsOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const FlagOption& option, bool given, FitSettings& settings);
 
 /// The place of a text among words. Error: it is none of them.

@@ -10,9 +10,9 @@
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/loss.hpp"
 #include "core/fit/point_policy.hpp"
-#include "core/geometry/surface/design_image.hpp"
 #include "core/inspection/decision.hpp"
 #include "drivers/source/failure.hpp"
+#include "drivers/text/units.hpp"
 
 namespace bladefit {
 
@@ -29,7 +29,8 @@ struct FitSettings {
   std::optional<ParameterWindow> window;
   std::optional<OutwardOption> outward;
   std::optional<double> probe_radius;
-  std::optional<DesignUnit> units;
+  std::optional<Unit> units;
+  std::optional<std::string> columns;  ///< of the points file, as check_point_columns() takes them
   std::optional<RegionPolicy> regions;
   std::optional<EdgePolicy> edges;
   std::optional<std::uint8_t> lock;  ///< bits of motion_lock.hpp, not all of them

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -24,9 +25,31 @@ std::string type_name(const toml::node& node) {
   return "a date or time";
 }
 
+constexpr std::size_t kDeepestKey = 32;
+
+/// The first line with a key of more parts than any here has, such as a.a.a.a ..., or 0. The parser would nest a table
+/// for each.
+std::size_t line_of_deep_key(std::string_view text) {
+  constexpr std::string_view kOfKeys = "-_\"' \t";
+  std::size_t line = 1, dots = 0;
+  for (const char c : text) {
+    line += c == '\n' ? 1 : 0;
+    const bool letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (c == '.') {
+      if (++dots >= kDeepestKey) return line;
+    } else if (!letter && kOfKeys.find(c) == std::string_view::npos) {
+      dots = 0;
+    }
+  }
+  return 0;
+}
+
 std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  constexpr std::size_t kListed = 12;
+  const std::size_t listed = std::min(words.size(), kListed);
+  std::string text =
+      fmt::format("{}", fmt::join(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(listed), ", "));
+  if (words.size() > listed) text += fmt::format(" and {} more", words.size() - listed);
   return text;
 }
 
@@ -65,7 +88,12 @@ TomlDocument read_toml(const std::string& path) {
   document.name = path;
   std::string text;
   if (const Failure failure = read_file(path, kMaxFileSize, text)) {
-    document.error = bad_input(fmt::format("{}: {}; give a readable TOML file", path, failure.message));
+    document.error = {failure.kind, fmt::format("{}: {}", path, failure.message)};
+    return document;
+  }
+  if (const std::size_t line = line_of_deep_key(text); line != 0) {
+    document.error = bad_input(
+        fmt::format("{}:{}: a key of {} parts or more; no key here has so many, correct it", path, line, kDeepestKey));
     return document;
   }
   try {
@@ -195,6 +223,7 @@ void TableReader::read(std::string_view key, double& value, NumberRange range) {
 }
 
 std::string TableReader::from_folder(const std::string& path) const {
+  if (path == "-") return path;
   return std::filesystem::path(document_->name).parent_path() / path;
 }
 

@@ -167,7 +167,7 @@ typedef struct bladefit_point {
   uint32_t reserved;    /* 0 */
   double position[3];   /* [mm] */
   double approach[3];   /* unit vector from the probe to the material; all 0 = unknown */
-  double weight;        /* > 0: of the squared distance in the least-squares objective; 0 = 1 */
+  double weight;        /* of the squared distance in the least-squares objective, 1e-12 to 1e12; 0 = 1 */
 } bladefit_point;
 
 typedef struct bladefit_verdict {

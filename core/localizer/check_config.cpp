@@ -13,6 +13,9 @@ namespace {
 /// Largest deviation of an entry of C'C from the identity where C is taken for a rotation.
 constexpr double kOrthogonal = 1e-9;
 
+/// No length of a blade or a machine is larger [mm], no share or factor either.
+constexpr double kLargest = 1e12;
+
 constexpr ConfigFault kNone{};
 
 constexpr ConfigFault out_of_range(const char* field, const char* reason) {
@@ -30,7 +33,8 @@ ConfigFault check_sizes(const LocalizerConfig& c) {
   return kNone;
 }
 
-/// Every number is finite, but a tolerance may be infinite: then nothing is judged by it.
+/// Every number is finite and of a size that computing with it bears, but a tolerance may be infinite: then nothing is
+/// judged by it.
 ConfigFault check_finite(const LocalizerConfig& config) {
   ConfigFault fault;
   for_each_field(config, [&fault](const char* name, const auto& field) {
@@ -39,6 +43,8 @@ ConfigFault check_finite(const LocalizerConfig& config) {
       const bool may_be_infinite = path == "tolerance.leading_edge_mm" || path == "tolerance.rest_mm";
       const bool good = may_be_infinite ? !std::isnan(field) : std::isfinite(field);
       if (!good && !fault) fault = {name, "must be a finite number", Status::not_finite};
+      if (!fault && std::isfinite(field) && std::abs(field) > kLargest)
+        fault = out_of_range(name, "must be at most 1e12");
     }
   });
   return fault;

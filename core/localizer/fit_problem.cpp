@@ -8,6 +8,9 @@
 namespace bladefit {
 namespace {
 
+/// Of the squared distance of a point, and its inverse.
+constexpr double kLargestWeight = 1e12;
+
 bool finite(const std::array<double, 3>& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
@@ -37,7 +40,7 @@ Status FitProblem::check(const ProbePoint& point) const {
   const double length = to_vec3(point.approach).norm();
   const double off = (apply(config.start, to_vec3(point.position)) - frame.pivot).norm();
   if (off > tuning::kFarthestPoint * frame.length) return Status::out_of_range;
-  if (!(point.weight > 0.0)) return Status::out_of_range;
+  if (!(point.weight >= 1.0 / kLargestWeight && point.weight <= kLargestWeight)) return Status::out_of_range;
   if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > 1e-3)) return Status::out_of_range;
   return Status::ok;
 }

@@ -1,13 +1,14 @@
 #pragma once
-#include <optional>
 #include <string>
+
+#include "drivers/replay/points_csv.hpp"
 
 namespace bladefit {
 
 /// A recording: a CSV file of points.
 struct ReplaySettings {
   std::string file;
-  std::optional<double> mm_per_unit;  ///< of the file's lengths; where nobody has said it they are mm
+  PointsFormat format;
 };
 
 }  // namespace bladefit

@@ -29,7 +29,7 @@ std::uint32_t digest(const std::vector<ProbePoint>& points) {
 }  // namespace
 
 Failure ReplaySource::open(std::uint32_t after, std::uint32_t /*run_id*/) {
-  PointsFile file = read_points_csv(settings_.file, settings_.mm_per_unit.value_or(1));
+  PointsFile file = read_points_csv(settings_.file, settings_.format);
   if (file.error) return std::move(file.error);
   if (after > file.points.size()) {
     return bad_input(

@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"loft", kSections, "-o", "OUT.igs", "--units", "cm"}, "--units"},
         Refusal{{"loft", kSections, "-o", "OUT.stp", "--units", "in"}, "OUT.stp: the design is written as IGES"},
         Refusal{{"loft", kSections, "-o", kSections, "--units", "in"}, "would overwrite the sections"},
-        Refusal{{"loft", kPoints, "-o", "OUT.igs", "--units", "in"}, "points.csv:1: unknown column 'path'"},
+        Refusal{{"loft", kPoints, "-o", "OUT.igs", "--units", "in"}, "points.csv:1: column 'section' is missing"},
         Refusal{{"loft", "nowhere.csv", "-o", "OUT.igs", "--units", "in"}, "nowhere.csv: no such file"},
         Refusal{{"loft", kSections, "-o", "OUT/a.igs", "--units", "in"}, "cannot be written", 3},
         Refusal{{"loft", kSections, "-o", "OUT.igs", "--units", "in", "--control-points", "181"},

@@ -44,6 +44,8 @@ LOOSE_IN_TOOLS = ("main.cpp", "*.sh", "CMakeLists.txt", "README.md")
 # Files that spell the same words as an enumeration for another vocabulary: (enumeration, file).
 OTHER_VOCABULARIES = (
     # What the operator reads on the screen is written for people: "FAULT", "needs more points", "elsewhere".
+    ("Unit", "tools/design/iges/*"),  # the units of IGES
+    ("Unit", "tools/commands/compile_command.cpp"),  # the unit of a design
     ("*", "tools/screen/words.cpp"),
     ("*", "tools/panel/panel_words.cpp"),
     ("*", "firmware_bridge/host/panel/panel_texts.cpp"),

@@ -27,7 +27,7 @@ const CompiledDesign& reference_design(const std::string& name) {
 }
 
 std::vector<ProbePoint> points_of(const ReferenceCase& c, const ReferenceSubset& subset) {
-  PointsFile file = read_points_csv(subset.points, c.mm_per_unit);
+  PointsFile file = read_points_csv(subset.points, {c.unit == "in" ? Unit::inch : Unit::mm, {}, {}, {}});
   if (file.error) throw std::runtime_error(file.error.message);
   return file.points;
 }
@@ -40,7 +40,7 @@ std::vector<ProbePoint> points_of(const ReferenceCase& c, const std::string& sub
 }
 
 std::vector<ProbePoint> thinned(const ReferenceCase& c, std::size_t first, std::size_t stride) {
-  const std::vector<ProbePoint> all = read_points_csv(c.folder / "points.csv", c.mm_per_unit).points;
+  const std::vector<ProbePoint> all = read_points_csv(c.folder / "points.csv", {c.unit == "in" ? Unit::inch : Unit::mm, {}, {}, {}}).points;
   std::vector<ProbePoint> points;
   for (std::size_t i = first; i < all.size(); i += stride) points.push_back(all[i]);
   return points;

@@ -5,22 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "core/localizer/check_config.hpp"
 #include "drivers/text/units.hpp"
 #include "tools/batch/edge_zone.hpp"
 #include "tools/batch/side_check.hpp"
 #include "tools/batch/start_pairs.hpp"
-#include "tools/design/nurbs/length_unit.hpp"
 
 namespace bladefit {
 namespace {
 
 void plan_units(const FitSettings& settings, const DesignImage& design, FitPlan& plan) {
   const bool inch_design = design.header().design_unit == static_cast<std::uint32_t>(DesignUnit::inch);
-  const DesignUnit unit = settings.units.value_or(inch_design ? DesignUnit::inch : DesignUnit::mm);
+  const Unit unit = settings.units.value_or(inch_design ? Unit::inch : Unit::mm);
   plan.units = word_of(unit);
   plan.mm_per_unit = mm_per_unit(unit);
+  plan.points = {unit, settings.units, settings.columns.value_or(""), Directions::normalised};
 }
 
 /// The box lies outside of the window, so that no point of it is used.
@@ -102,7 +103,8 @@ void plan_start(const std::string& path, FitPlan& plan) {
     plan.search_start = true;
     return;
   }
-  const StartPairs pairs = read_start_pairs(path, plan.mm_per_unit);
+  const StartPairs pairs = read_start_pairs(path, plan.points);
+  if (!pairs.note.empty()) plan.note += fmt::format("{}: {}\n", path, pairs.note);
   plan.localizer.start = pairs.pose;
   plan.note += fmt::format("Start: {} point pairs, rms {:.4g} {}, largest {:.4g} {} at {}\n", pairs.count,
                            pairs.rms_mm / plan.mm_per_unit, plan.units, pairs.worst_mm / plan.mm_per_unit, plan.units,
@@ -115,10 +117,21 @@ void plan_radii(const FitSettings& settings, FitPlan& plan) {
   if (settings.tip_radius) plan.tip_radius_mm = *settings.tip_radius * plan.mm_per_unit;
 }
 
+/// Distances as large as the blade judge nothing.
+void check_sizes(const FitSettings& settings, const FitPlan& plan, double longest_mm) {
+  using Length = std::pair<const char*, std::optional<double>>;
+  for (const auto& [flag, length] : {Length{"--tolerance", settings.tolerance},
+                                     {"--loss-scale", settings.loss_scale},
+                                     {"--probe-uncertainty", settings.probe_uncertainty}}) {
+    if (!length || *length * plan.mm_per_unit <= longest_mm) continue;
+    throw ToolError(fmt::format("{}: {:g} {} is more than the blade's longest side, {:.4g} {}; correct it or its unit",
+                                flag, *length, plan.units, longest_mm / plan.mm_per_unit, plan.units));
+  }
+}
+
 /// A ball that is as large as the blade touches it nowhere in particular.
-void check_probe(const FitPlan& plan, const DesignImage& design) {
-  const Vec3 box = Vec3(design.header().box_max) - Vec3(design.header().box_min);
-  const double radius = plan.localizer.probe_radius_mm, most = 0.5 * box.maxCoeff();
+void check_probe(const FitPlan& plan, double longest_mm) {
+  const double radius = plan.localizer.probe_radius_mm, most = 0.5 * longest_mm;
   if (radius <= most) return;
   throw ToolError(
       fmt::format("--probe-radius: a ball of radius {:g} {} is larger than the blade, whose longest side is "
@@ -158,7 +171,9 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   if (const ConfigFault fault = check_config(plan.localizer, patches))
     throw ToolError(explained(fault, plan.localizer, patches));
   plan_radii(settings, plan);
-  check_probe(plan, design);
+  const Vec3 box = Vec3(design.header().box_max) - Vec3(design.header().box_min);
+  check_probe(plan, box.maxCoeff());
+  check_sizes(settings, plan, box.maxCoeff());
   check_outward(design, outward_of(settings));
   for (std::uint32_t k = 0; k < map.box_count; ++k) plan.note += zone_warning(Surface(design), map.boxes.at(k));
   return plan;

@@ -6,6 +6,7 @@
 #include "core/geometry/surface/design_image.hpp"
 #include "core/inspection/shaft_axis.hpp"
 #include "core/localizer.hpp"
+#include "drivers/replay/points_csv.hpp"
 #include "tools/batch/first_feet.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/files/tool_error.hpp"
@@ -16,6 +17,7 @@ namespace bladefit {
 struct FitPlan {
   std::string units = "mm";  ///< of lengths on the command line and in results
   double mm_per_unit = 1.0;
+  PointsFormat points;  ///< of the points file
   LocalizerConfig localizer;
   FootStarts starts = FootStarts::searched;  ///< of a batch fit
   ShaftAxis axis;                            ///< of the design [mm]

@@ -19,7 +19,10 @@ namespace {
 constexpr std::array<std::string_view, 7> kColumns = {"x", "y", "z", "design_x", "design_y", "design_z", "name"};
 constexpr std::size_t kNameColumn = 6;
 constexpr std::string_view kMend = "the first line must name the columns: [name,]x,y,z,design_x,design_y,design_z";
-constexpr CsvFormat kFormat{kColumns, kNameColumn, 0, kMend};
+constexpr CsvFormat kFormat{
+    .columns = kColumns, .needed = kNameColumn, .together = 0, .first_length = 0, .lengths = kNameColumn, .fix = kMend};
+/// No place on a machine is farther away, whatever the unit.
+constexpr double kLargestCoordinate = 1e9;
 /// Pairs whose rests are this share of their spread, in root mean squares, do not belong together: marks are picked to
 /// some hundredths of a blade.
 constexpr double kWorstRest = 0.05;
@@ -38,21 +41,19 @@ using Points = std::vector<Vec3>;
 Pair parse_pair(const CsvRow& row) {
   Pair pair;
   pair.name = fmt::format("line {}", row.place.line);
-  for (std::size_t k = 0; k < row.cells.size(); ++k) {
-    if (row.columns[k] == kNameColumn) {
-      pair.name = std::string(row.cells[k]);
-      continue;
-    }
-    double value = 0;
-    if (const Failure failure = finite_cell(row, k, kFormat, value)) throw ToolError(failure);
-    pair.numbers[row.columns[k]] = value;
+  if (!row.values[kNameColumn].empty()) pair.name = std::string(row.values[kNameColumn]);
+  for (std::size_t k = 0; k < kNameColumn; ++k) {
+    if (const Failure failure = finite_cell(row, k, kFormat, pair.numbers[k])) throw ToolError(failure);
+    if (std::abs(pair.numbers[k]) <= kLargestCoordinate) continue;
+    throw ToolError(row.place.say(fmt::format("column {}: {} is beyond {:g}; correct it", kColumns[k],
+                                              quoted(row.values[k]), kLargestCoordinate)));
   }
   return pair;
 }
 
-std::vector<Pair> parse_pairs(std::string_view text, const std::string& name) {
+std::vector<Pair> parse_pairs(std::string_view text, const std::string& name, CsvHeader& header) {
   std::vector<Pair> pairs;
-  const Failure failure = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
+  const Failure failure = read_csv_table(text, name, kFormat, {}, header, [&](const CsvRow& row) {
     pairs.push_back(parse_pair(row));
     return Failure();
   });
@@ -129,19 +130,25 @@ void check_rests(const std::vector<Pair>& pairs, const std::vector<double>& rest
 
 }  // namespace
 
-StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
-  const std::vector<Pair> pairs = parse_pairs(read_text(path, "start pairs"), path);
+StartPairs read_start_pairs(const std::string& path, const PointsFormat& format) {
+  CsvHeader header;
+  const std::vector<Pair> pairs = parse_pairs(read_text(path, "start pairs"), path, header);
+  Unit unit = format.unit;
+  if (const Failure failure = choose_unit(header, format.given_unit, format.unit, unit))
+    throw ToolError(fmt::format("{}: {}", path, failure.message));
+  const double mm = mm_per_unit(unit);
   if (pairs.size() < 3)
     throw ToolError(fmt::format("{}: {} pairs, at least 3 are needed; add a line for each pair", path, pairs.size()));
   Points measured, design;
   for (const Pair& pair : pairs) {
-    measured.push_back(mm_per_unit * Vec3(pair.numbers.data()));
-    design.push_back(mm_per_unit * Vec3(pair.numbers.data() + 3));
+    measured.push_back(mm * Vec3(pair.numbers.data()));
+    design.push_back(mm * Vec3(pair.numbers.data() + 3));
   }
   check_spread(measured, "measured", path);
   check_spread(design, "design", path);
   StartPairs out;
   out.count = pairs.size();
+  out.note = header.unused_note();
   out.pose = motion_between(measured, design);
   const std::vector<double> rests = rests_of(out.pose, measured, design);
   const auto worst = std::max_element(rests.begin(), rests.end());
@@ -150,7 +157,7 @@ StartPairs read_start_pairs(const std::string& path, double mm_per_unit) {
   double square = 0.0;
   for (const double rest : rests) square += rest * rest;
   out.rms_mm = std::sqrt(square / static_cast<double>(pairs.size()));
-  check_rests(pairs, rests, out.rms_mm, spread_of(design), mm_per_unit, path);
+  check_rests(pairs, rests, out.rms_mm, spread_of(design), mm, path);
   return out;
 }
 

@@ -53,10 +53,12 @@ std::vector<double> plausible(double extent, double design_extent) {
 
 std::string number(double factor) { return fmt::format("{:.4g}", factor); }
 
-/// An inch for a millimetre is the one mistake that --units undoes by itself.
-std::string way_out(double factor, const std::string& units) {
-  if (std::abs(factor - 25.4) < 1e-9 && units == "in") return "give --units mm";
-  if (std::abs(factor * 25.4 - 1.0) < 1e-9 && units == "mm") return "give --units in";
+/// The unit in which points that were taken in `unit` are not too large by the factor, where there is one.
+std::string way_out(double factor, Unit unit) {
+  for (const Unit other : {Unit::mm, Unit::inch, Unit::cm, Unit::metre}) {
+    const double ratio = mm_per_unit(unit) / mm_per_unit(other);
+    if (std::abs(factor / ratio - 1.0) < 1e-9) return fmt::format("give --units {}", word_of(other));
+  }
   return "name their unit with --units, scale the points, or correct the unit of the design";
 }
 
@@ -104,7 +106,7 @@ std::optional<UnitFound> find_unit(const PoseSearch& search, const std::vector<P
   return UnitFound{factors.empty() ? extent / design_extent : factors.front(), false};
 }
 
-std::string unit_sentence(const UnitFound& found, const std::string& units) {
+std::string unit_sentence(const UnitFound& found, Unit unit) {
   const bool large = found.factor > 1.0;
   const double times = large ? found.factor : 1.0 / found.factor;
   const std::string size =
@@ -112,7 +114,7 @@ std::string unit_sentence(const UnitFound& found, const std::string& units) {
           ? fmt::format("the points fit the design when they are {} by {}: they are {} times too {} for it",
                         large ? "divided" : "multiplied", number(times), number(times), large ? "large" : "small")
           : fmt::format("the points span more than the design can, about {} times its size", number(times));
-  return fmt::format("{} (their numbers were taken as {}); {}", size, units, way_out(found.factor, units));
+  return fmt::format("{} (their numbers were taken as {}); {}", size, word_of(unit), way_out(found.factor, unit));
 }
 
 }  // namespace bladefit

@@ -29,7 +29,7 @@ struct UnitFound {
 [[nodiscard]] std::optional<UnitFound> find_unit(const PoseSearch& search, const std::vector<ProbePoint>& points,
                                                  double best_mm);
 
-/// One sentence on points in another unit, which ends with the way out. `units` are those they were taken in.
-[[nodiscard]] std::string unit_sentence(const UnitFound& found, const std::string& units);
+/// One sentence on points in another unit, which ends with the way out. `unit` is the one they were taken in.
+[[nodiscard]] std::string unit_sentence(const UnitFound& found, Unit unit);
 
 }  // namespace bladefit

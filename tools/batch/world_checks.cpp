@@ -159,7 +159,7 @@ bool WorldChecks::fits_mirrored(double best_mm) {
 /// The one sentence on points that fit nowhere as they are; `best_mm` is the typical distance of their best fit.
 VerdictReason WorldChecks::explain_misfit(double best_mm) {
   if (const std::optional<UnitFound> unit = find_unit(search(), points_, best_mm))
-    return {Reason::wrong_units, unit_sentence(*unit, plan_.units)};
+    return {Reason::wrong_units, unit_sentence(*unit, plan_.points.unit)};
   if (fits_mirrored(best_mm)) {
     return {
         Reason::mirrored,

@@ -16,6 +16,7 @@
 #include "tools/commands/simulate_command.hpp"
 #include "tools/commands/split_command.hpp"
 #include "tools/files/exit_codes.hpp"
+#include "tools/files/message.hpp"
 
 namespace bladefit {
 namespace {
@@ -27,6 +28,15 @@ constexpr const char* kFooter =
     "Exit codes: 0 done, in tolerance or nothing to judge, 1 the blade is out of tolerance, 2 wrong use or bad input, "
     "3 "
     "device or I/O failure, 4 not decided: the reasons stand below the verdict.";
+
+/// What is wrong with the command line. Of a value that is no number the parser says `--ratio = abc`.
+std::string words_of(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::size_t place = text.find(": "), equal = text.find(" = ");
+  const bool conversion = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr;
+  if (!conversion || place == std::string::npos || equal == std::string::npos) return text;
+  return text.substr(place + 2, equal - place - 2) + ": '" + text.substr(equal + 3) + "' is not a number";
+}
 
 }  // namespace
 
@@ -54,11 +64,10 @@ int run_command_line(int argc, char** argv) {
     const std::string first = argc > 1 ? argv[1] : "";
     const auto named = [&first](const CLI::App* command) { return command->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named).empty()) {
-      std::fprintf(stderr, "bladefit: '%s' is no command; `bladefit --help` lists them\n", first.c_str());
+      tell("'" + first + "' is no command; `bladefit --help` lists them");
       return kBadInput;
     }
-    std::fprintf(stderr, "bladefit: %s; `bladefit --help` and `bladefit COMMAND --help` list what there is\n",
-                 error.what());
+    tell(words_of(error) + "; `bladefit --help` and `bladefit COMMAND --help` list what there is");
     return kBadInput;
   }
   return exit_code;

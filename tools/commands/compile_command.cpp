@@ -49,6 +49,8 @@ std::string_view as_text(const std::vector<std::byte>& bytes) {
 
 /// An output must overwrite neither the design nor another output.
 void check_outputs(const CompileOptions& options) {
+  if (options.output == "-" || options.c_array == "-")
+    throw ToolError("-o -: a design is not written to standard output; name a file");
   refuse_overwriting(options.output, "design", options.design);
   refuse_overwriting(options.c_array, "design", options.design);
   if (same_file(options.output, options.c_array)) {

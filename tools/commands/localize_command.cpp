@@ -9,6 +9,7 @@
 #include <string>
 
 #include "drivers/replay/points_csv.hpp"
+#include "drivers/text/read_file.hpp"
 #include "tools/batch/batch_fit.hpp"
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/design_notes.hpp"
@@ -57,9 +58,11 @@ std::vector<std::size_t> read_subset(const std::string& path, std::size_t rows) 
   return indices;
 }
 
-std::vector<ProbePoint> read_points(const LocalizeFlags& flags, double mm_per_unit) {
-  PointsFile file = read_points_csv(flags.points, mm_per_unit);
+std::vector<ProbePoint> read_points(const LocalizeFlags& flags, FitPlan& plan) {
+  PointsFile file = read_points_csv(flags.points, plan.points);
   if (file.error) throw ToolError(file.error);
+  plan.points.unit = file.unit;
+  for (const std::string& note : file.notes) plan.note += note + "\n";
   if (!flags.subset.empty()) {
     std::vector<ProbePoint> chosen;
     for (const std::size_t index : read_subset(flags.subset, file.points.size())) chosen.push_back(file.points[index]);
@@ -67,7 +70,7 @@ std::vector<ProbePoint> read_points(const LocalizeFlags& flags, double mm_per_un
   }
   if (file.points.empty()) {
     throw ToolError(fmt::format("{}: names no point; probe some, or name another file",
-                                flags.subset.empty() ? flags.points : flags.subset));
+                                flags.subset.empty() ? file_name(flags.points) : flags.subset));
   }
   return file.points;
 }
@@ -95,19 +98,19 @@ int localize(const LocalizeFlags& flags) {
     throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));
   FitPlan plan = plan_fit(settings, design);
   if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
-  const std::vector<ProbePoint> points = read_points(flags, plan.mm_per_unit);
+  const std::vector<ProbePoint> points = read_points(flags, plan);
 
   const bool json_on_stdout = flags.json == "-";
   std::FILE* words = json_on_stdout ? stderr : stdout;
   tell_notes(loaded, words);
   if (!plan.note.empty()) fmt::print(words, "{}", plan.note);
-  const BatchFit batch = fit_points(design, plan, points, flags.points);
+  const BatchFit batch = fit_points(design, plan, points, file_name(flags.points));
   const Result& result = batch.result;
   if (!flags.starts.empty()) {
     fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", batch.wrong_starts, points.size(),
                batch.wrong_starts > 0 ? "; fitted again from searched ones" : "");
   }
-  if (!flags.json.empty()) write_output(flags.json, result_json(result), "result");
+  if (!flags.json.empty()) write_output(flags.json, result_json(result));
   fmt::print(words, "{}", operator_summary(result));
   if (!flags.json.empty() && !json_on_stdout) fmt::print(words, "Written: {}\n", flags.json);
   return exit_code_of(result);
@@ -120,7 +123,10 @@ void add_localize_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("localize", "fit measured points to a design and judge them");
   command->add_option("--design", flags->design, "design: .igs .iges .stp .step, or .bfd from `bladefit compile`")
       ->required();
-  command->add_option("--points", flags->points, "CSV with columns x,y,z and optionally i,j,k and path")->required();
+  command
+      ->add_option("--points", flags->points,
+                   "CSV with columns x,y,z and optionally i,j,k, path, weight; - reads standard input")
+      ->required();
   command->add_option("--subset", flags->subset,
                       "file of row numbers of the points to use, counted from 0, one a line");
   command->add_option(

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/loft/leading_edge.hpp"
 #include "tools/design/loft/loft.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/files/output_file.hpp"
@@ -14,8 +18,15 @@
 namespace bladefit {
 namespace {
 
+/// A surface farther from its points than this share of the leading-edge tolerance would show in every verdict; where
+/// no tolerance is known, than this length [mm].
+constexpr double kShareOfTolerance = 0.1, kLargestOff_mm = 0.1;
+/// What a zone about the leading edge takes on either side of it [v].
+constexpr double kZone = 0.05;
+
 struct LoftFlags {
   std::string sections, output, units;
+  std::optional<double> tolerance;
   LoftSettings settings;
 };
 
@@ -32,11 +43,15 @@ edge); the sections go from root to tip. Sections may have different numbers of 
      and their noise as well. Default: a third of the points of the shortest section as knots (180 points: 60 knots).
   u  runs over the sections: splines through their control points, section k of n at u = k/(n-1).
 
-What is printed: how far the points are from the surface, root mean square and largest.
+What is printed: how far the points are from the surface, root mean square and largest, and where the leading edge lies
+in v. A surface that is farther from its points than a tenth of --tolerance (0.1 mm where it is not given) is written, with
+a warning: distances from it are wrong by as much. --follow-points makes the knots dense where the points are, which on
+sections with dense points at the leading edge keeps the surface near them there.
 
 Examples:
   bladefit loft sections.csv -o blade.igs --units in
   bladefit loft sections.csv -o blade.igs --units mm --control-points 80
+  bladefit loft sections.csv -o blade.igs --units mm --follow-points --tolerance 0.1
   bladefit loft sections.csv -o blade.igs --units mm --knots 0.2,0.4,0.46,0.5,0.54,0.6,0.8    (dense at the leading edge)
 
 Exit codes: 0 done, 2 wrong use or bad sections, 3 a file cannot be read or written.)";
@@ -49,18 +64,51 @@ void print_deviation(const BladeSections& sections, const LoftDeviation& deviati
              worst.radius ? fmt::format(" (r/R {})", *worst.radius) : "", worst.lines[deviation.point]);
 }
 
+/// The zone to judge it by, for --leading-edge.
+void print_leading_edge(const BladeSections& sections) {
+  const std::optional<LeadingEdgeRange> edge = leading_edge_of(sections);
+  if (!edge) {
+    fmt::print("  leading edge: not found, since the sections do not begin and end at one trailing edge\n");
+    return;
+  }
+  fmt::print(
+      "  leading edge, opposite the ends of the sections: v {:.4f} to {:.4f}, as --leading-edge v:{:.2f}:{:.2f}\n",
+      edge->v_min, edge->v_max, std::max(0.0, edge->v_min - kZone), std::min(1.0, edge->v_max + kZone));
+}
+
+/// Of a surface that is not where its points are.
+void warn_of_deviation(const LoftFlags& flags, const BladeSections& sections, const LoftDeviation& deviation,
+                       double mm) {
+  const double most = flags.tolerance ? kShareOfTolerance * *flags.tolerance * mm : kLargestOff_mm;
+  if (deviation.largest_mm <= most) return;
+  const BladeSection& worst = sections.sections[deviation.section];
+  fmt::print(
+      stderr,
+      "bladefit: warning: {}:{}: the surface is {:.3g} {} off this point of section {}, more than {:.3g} {}; give "
+      "--follow-points, more --control-points, or --knots that are dense there\n",
+      flags.sections, worst.lines[deviation.point], deviation.largest_mm / mm, flags.units, worst.name, most / mm,
+      flags.units);
+}
+
 void run_loft(const LoftFlags& flags) {
   refuse_overwriting(flags.output, "sections", flags.sections);
   const DesignUnit unit = flags.units == "in" ? DesignUnit::inch : DesignUnit::mm;
   const BladeSections sections = read_sections_csv(flags.sections);
+  if (sections.unit && mm_per_unit(*sections.unit) != mm_per_unit(unit)) {
+    throw ToolError(fmt::format("{}: the file gives its lengths in {}, but --units says {}; correct one of the two",
+                                flags.sections, word_of(*sections.unit), flags.units));
+  }
   const NurbsSurface surface = loft(sections, flags.settings, mm_per_unit(unit));
   const LoftDeviation deviation = loft_deviation(surface, sections, mm_per_unit(unit));
   write_iges_design(flags.output, {surface}, unit);
   fmt::print("{} -> {}\n", flags.sections, flags.output);
+  if (!sections.note.empty()) fmt::print("  {}\n", sections.note);
   fmt::print("  {} sections, {} points\n", sections.sections.size(), deviation.points);
   fmt::print("  u over the sections: degree {}, {} control points\n", surface.u.degree, surface.u.control_points);
   fmt::print("  v along the sections: degree {}, {} control points\n", surface.v.degree, surface.v.control_points);
   print_deviation(sections, deviation, unit);
+  print_leading_edge(sections);
+  warn_of_deviation(flags, sections, deviation, mm_per_unit(unit));
 }
 
 }  // namespace
@@ -81,6 +129,10 @@ void add_loft_command(CLI::App& app, int& exit_code) {
   command->add_option("--knots", settings.knots, "Internal knots along a section, between 0 and 1, rising")
       ->delimiter(',')
       ->type_name("T1,T2,...");
+  command->add_flag("--follow-points", settings.follow_points,
+                    "Knots along a section that are dense where its points are, in place of uniform ones");
+  command->add_option("--tolerance", flags->tolerance, "Leading-edge tolerance that the blade will be judged by")
+      ->check(CLI::PositiveNumber);
   command->add_option("--degree", settings.degree, "Degree along the sections")->capture_default_str();
   command->add_option("--span-degree", settings.span_degree, "Degree over the sections")->capture_default_str();
   command->callback([flags, &exit_code] {

@@ -45,8 +45,8 @@ void check_output(const ReportOptions& options) {
 void report(const ReportOptions& options) {
   const ReportFormat& format = format_of(options.format);
   check_output(options);
-  OutputFile(options.output, format.text_of(read_session(options.session))).commit();
-  fmt::print("Written: {}\n", options.output);
+  write_output(options.output, format.text_of(read_session(options.session)));
+  if (options.output != "-") fmt::print("Written: {}\n", options.output);
 }
 
 }  // namespace
@@ -59,7 +59,9 @@ void add_report_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("SESSION_DIR");
   command->add_option("--format", options->format, "what to write")->required()->type_name(format_names("|", "|"));
-  command->add_option("-o,--output", options->output, "file to write")->required()->type_name("OUT");
+  command->add_option("-o,--output", options->output, "file to write; - is standard output")
+      ->required()
+      ->type_name("OUT");
   command->callback([options, &exit_code] {
     report(*options);
     exit_code = 0;

@@ -167,7 +167,7 @@ void run_reproduce(const ReproduceFlags& flags) {
   std::FILE* words = json_on_stdout ? stderr : stdout;
   print_tables(tables, words);
   if (flags.json.empty()) return;
-  write_output(flags.json, tables_json(tables), "figures");
+  write_output(flags.json, tables_json(tables));
   if (!json_on_stdout) fmt::print("Written: {}\n", flags.json);
 }
 

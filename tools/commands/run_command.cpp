@@ -20,6 +20,7 @@
 #include "tools/commands/run_plan.hpp"
 #include "tools/commands/run_stop_flag.hpp"
 #include "tools/files/exit_codes.hpp"
+#include "tools/files/message.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/panel/panel_display.hpp"
 #include "tools/results/json_writer.hpp"
@@ -31,9 +32,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kTurn{50};
 
-/// A line on standard error, which may be closed.
-void say(const std::string& line) { std::fputs(("bladefit: " + line + "\n").c_str(), stderr); }
-
 /// Lines that the host has for the user. They wait while a screen is shown.
 class Notices {
  public:
@@ -42,7 +40,7 @@ class Notices {
   void add(const std::string& line) {
     const std::lock_guard lock(mutex_);
     if (at_once_) {
-      say(line);
+      tell(line);
     } else {
       waiting_.push_back(line);
     }
@@ -50,7 +48,7 @@ class Notices {
 
   void flush() {
     const std::lock_guard lock(mutex_);
-    for (const std::string& line : waiting_) say(line);
+    for (const std::string& line : waiting_) tell(line);
     waiting_.clear();
   }
 
@@ -117,15 +115,17 @@ struct Words {
 
 /// Tells the end of the session. Returns false where the output fails; one that nobody reads any more, a pipe or a
 /// terminal that is gone, was given up by its reader, and is none of our failures.
-bool tell(const Words& words, const std::string& text, const RunPlan& plan) {
+bool tell_summary(const Words& words, const std::string& text, const RunPlan& plan) {
   std::clearerr(words.file);
   errno = 0;
   const bool told = std::fputs(text.c_str(), words.file) >= 0 && std::fflush(words.file) == 0;
   if (told) return true;
   const int reason = errno;
-  say(fmt::format("the summary cannot be written ({}); the result is in {}", std::strerror(reason),
+  tell(fmt::format("the summary cannot be written ({}); the result is in {}", std::strerror(reason),
                   plan.host.session_directory));
-  return reason == EPIPE || (words.terminal && reason == EIO);
+  const bool given_up = reason == EPIPE || (words.terminal && reason == EIO);
+  if (given_up) std::clearerr(words.file);
+  return given_up;
 }
 
 WrittenFiles write_files(const RunPlan& plan, const Result& result) {
@@ -133,7 +133,7 @@ WrittenFiles write_files(const RunPlan& plan, const Result& result) {
   if (plan.json.empty()) return files;
   const auto json = [&result](const Put& put) { write_result_json(result, put); };
   add_written(
-      plan.json, [&] { write_output(plan.json, json, "result"); }, files);
+      plan.json, [&] { write_output(plan.json, json); }, files);
   return files;
 }
 
@@ -141,7 +141,7 @@ WrittenFiles write_files(const RunPlan& plan, const Result& result) {
 /// keeps nothing else from it.
 int conclude(const RunPlan& plan, Host& host, const Words& words) {
   const SessionResult session = host.finish();
-  if (session.error) say(session.error.message);
+  if (session.error) tell(session.error.message);
   // A session that was refused is not this run's to report on.
   const bool refused = session.error.kind == Failure::Kind::bad_input;
   if (session.error && (refused || session.points.empty())) return exit_code_of(session.error);
@@ -158,8 +158,8 @@ int conclude(const RunPlan& plan, Host& host, const Words& words) {
   const WrittenFiles files = write_files(plan, result);
   std::string text = fmt::format("Session ended: {}\n{}", ending(session), operator_summary(result));
   for (const std::string& path : files.paths) text += path == "-" ? "" : fmt::format("Written: {}\n", path);
-  const bool told = tell(words, text, plan);
-  for (const Failure& failure : files.failures) say(failure.message);
+  const bool told = tell_summary(words, text, plan);
+  for (const Failure& failure : files.failures) tell(failure.message);
   if (session.error) return exit_code_of(session.error);
   if (!files.failures.empty()) return exit_code_of(files.failures.front());
   return told ? exit_code_of(result) : kDeviceFailure;
@@ -186,7 +186,7 @@ int run(const RunFlags& flags) {
   Host host(plan.host, plan.image, *source, [&notices](const std::string& line) { notices.add(line); });
   if (const Failure failure = host.start()) throw ToolError(failure);
   for (const std::string& part : stray_parts(plan))
-    say(fmt::format("{}: left by a run that was killed; removed", part));
+    tell(fmt::format("{}: left by a run that was killed; removed", part));
   const std::string begun = fmt::format("Points from {}, session in {}, panel at {}\n", source_name(plan.source),
                                         plan.host.session_directory, panel_address(plan, host));
   std::fputs(begun.c_str(), words.file);
@@ -194,7 +194,7 @@ int run(const RunFlags& flags) {
   watch(host, plan, stop);
   notices.flush();
   const int exit_code = conclude(plan, host, words);
-  linger(plan, stop, host.panel_port(), words);
+  if (exit_code != kBadInput) linger(plan, stop, host.panel_port(), words.file);
   return exit_code;
 }
 

@@ -41,8 +41,8 @@ SessionSettings merged_session(const RunFlags& flags) {
   return session;
 }
 
-/// `flag` is that of --units, which wins over the units that a device file gives for its recording.
-SourceSettings plan_source(const SessionSettings& session, const std::optional<DesignUnit>& flag, double mm_per_unit) {
+/// `flags` win over what a device file says of its recording; `plan` stands in where neither says anything.
+SourceSettings plan_source(const SessionSettings& session, const FitSettings& flags, const PointsFormat& plan) {
   SourceSettings source;
   if (session.device) {
     if (const Failure error = load_device(*session.device, source)) throw ToolError(error);
@@ -56,7 +56,12 @@ SourceSettings plan_source(const SessionSettings& session, const std::optional<D
         "session file");
   }
   auto* const replay = std::get_if<ReplaySettings>(&source);
-  if (replay != nullptr && (flag || !replay->mm_per_unit)) replay->mm_per_unit = mm_per_unit;
+  if (replay != nullptr) {
+    PointsFormat& format = replay->format;
+    format.unit = plan.unit;
+    if (flags.units || !format.given_unit) format.given_unit = plan.given_unit;
+    if (flags.columns || format.columns.empty()) format.columns = plan.columns;
+  }
   return source;
 }
 
@@ -72,6 +77,15 @@ PanelServerSettings plan_panel(const PanelSettings& file, const std::string& fla
     throw ToolError(fmt::format("--panel {}: is no address; use HOST:PORT, for example 127.0.0.1:1503", flag));
   }
   return panel;
+}
+
+/// A recording is read before the session begins: what is wrong with it is said at once, and what of it is not used.
+void check_recording(const SourceSettings& source, FitPlan& plan) {
+  const auto* const replay = std::get_if<ReplaySettings>(&source);
+  if (replay == nullptr || replay->file == "-") return;
+  const PointsFile file = read_points_csv(replay->file, replay->format);
+  if (file.error) throw ToolError(file.error);
+  for (const std::string& note : file.notes) plan.note += note + "\n";
 }
 
 /// A folder of its own for every session that has no name, so that none is resumed by accident.
@@ -125,7 +139,8 @@ RunPlan plan_run(const RunFlags& flags) {
         "--start search: only localize can search, once all points are there; give a file of pairs, or leave it out");
   }
   if (session.capacity) plan.fit.localizer.capacity = *session.capacity;
-  plan.source = plan_source(session, flags.session.fit.units, plan.fit.mm_per_unit);
+  plan.source = plan_source(session, flags.session.fit, plan.fit.points);
+  check_recording(plan.source, plan.fit);
   plan.json = flags.json;
   // The screen would mix with the result.
   plan.headless = session.headless.value_or(false) || plan.json == "-";

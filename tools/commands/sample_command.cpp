@@ -10,7 +10,7 @@
 
 #include "config/fit_settings.hpp"
 #include "core/geometry/surface/design_image.hpp"
-#include "drivers/text/csv_text.hpp"
+#include "drivers/text/csv_cells.hpp"
 #include "drivers/text/text_number.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
@@ -70,7 +70,8 @@ void parse_grid(const SampleFlags& flags, SamplePlan& plan) {
 
 /// tx,ty,tz,psi,theta,phi; lengths times `mm`.
 Pose parse_pose(const char* option, const std::string& text, double mm) {
-  const std::vector<std::string_view> cells = cells_of(text);
+  std::vector<std::string_view> cells;
+  static_cast<void>(split_cells(text, ',', cells));
   std::array<double, 6> numbers{};
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto number = cells.size() == numbers.size() ? parse_finite(cells[k]) : std::nullopt;
@@ -158,7 +159,8 @@ void run_sample(const SampleFlags& flags) {
   const SamplePlan plan = plan_samples(flags, design);
   const std::vector<ProbePoint> points = sample_surface(design, plan);
   const DesignUnit unit = unit_of(flags, design);
-  OutputFile(flags.output, points_text(points, plan.directions, mm_per_unit(unit))).commit();
+  write_output(flags.output, points_text(points, plan.directions, mm_per_unit(unit)));
+  if (flags.output == "-") return;
   fmt::print("{} -> {}\n  {} points on {} paths, in {}\n", flags.design, flags.output, points.size(),
              points.back().path, unit == DesignUnit::inch ? "inches" : "mm");
 }
@@ -181,7 +183,9 @@ void add_sample_command(CLI::App& app, int& exit_code) {
   command->add_option("design", flags->design, "IGES or STEP file, or an image (.bfd)")
       ->required()
       ->type_name("DESIGN");
-  command->add_option("-o,--output", flags->output, "CSV to write")->required()->type_name("POINTS.csv");
+  command->add_option("-o,--output", flags->output, "CSV to write; - is standard output")
+      ->required()
+      ->type_name("POINTS.csv");
   command->add_option("--grid", flags->grid, "Points in u and in v on each patch")->required()->type_name("NUxNV");
   command->add_option("--window", flags->window, "Limits of the parameters of the grid")->capture_default_str();
   command->add_option("--patch", flags->plan.patch, "Number of the only patch, counted from 0 (default: all)");

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "config/fit_option.hpp"
 #include "core/geometry/surface/design_image.hpp"
 #include "drivers/text/units.hpp"
 #include "tools/design/load_design.hpp"
@@ -32,8 +33,10 @@ void add_source_flags(CLI::App& command, SimulateFlags& flags) {
                   "CSV of the points that the machine touches: x,y,z[,i,j,k][,path][,weight]")
       ->required();
   command.add_option("--design", flags.design, "design file; read for the units of the points only");
-  command.add_option("--units", flags.units, "units of the points: mm or in (default: those of the design, else mm)")
-      ->check(CLI::IsMember({"mm", "in"}));
+  command.add_option("--units", flags.units,
+                     "units of the points: mm, in, cm or m (default: those of the design, else mm)");
+  command.add_option("--columns", settings.points_format.columns,
+                     "what the columns of the points are, as for localize");
   command.add_option("--rate", settings.rate, "points a second; 0 = as fast as they are acknowledged")
       ->capture_default_str();
   command.add_option("--capacity", settings.capacity, "records that the machine's ring holds")->capture_default_str();
@@ -83,17 +86,26 @@ DesignUnit design_unit(const std::string& path) {
   return static_cast<DesignUnit>(image.header().design_unit);
 }
 
-/// Millimetres in a unit of the points file. Throws ToolError for a design that cannot be read.
-double mm_per_unit_of(const SimulateFlags& flags) {
-  if (flags.units == "in") return kMmPerInch;
-  if (flags.units == "mm" || flags.design.empty()) return 1;
-  return design_unit(flags.design) == DesignUnit::inch ? kMmPerInch : 1;
+/// How the points file is to be read. Throws ToolError for a design that cannot be read.
+void plan_points(SimulateFlags& flags) {
+  PointsFormat& format = flags.settings.points_format;
+  if (!format.columns.empty()) {
+    if (const Failure failure = check_point_columns(format.columns)) throw ToolError("--columns: " + failure.message);
+  }
+  if (!flags.units.empty()) {
+    std::size_t unit = 0;
+    if (const Failure failure = find_word(kUnitWords, flags.units, unit))
+      throw ToolError("--units: " + failure.message);
+    format.given_unit = static_cast<Unit>(unit);
+  } else if (!flags.design.empty() && design_unit(flags.design) == DesignUnit::inch) {
+    format.unit = Unit::inch;
+  }
 }
 
 int serve_points(SimulateFlags& flags) {
   refuse_overwriting(flags.settings.stamps, "points", flags.settings.points);
   refuse_overwriting(flags.settings.stamps, "design", flags.design);
-  flags.settings.mm_per_unit = mm_per_unit_of(flags);
+  plan_points(flags);
   flags.settings.transport = transport_of(flags.transport);
   return run_simulator(flags.settings);
 }

@@ -21,7 +21,7 @@ namespace bladefit {
 namespace {
 
 struct SplitFlags {
-  std::string design, output, points, subset;
+  std::string design, output, points, columns, subset;
   std::string outward = "auto";
   std::vector<std::string> cuts;
   double buffer = 0;
@@ -116,8 +116,10 @@ struct UsedRows {
 };
 
 UsedRows find_used_rows(const SplitFlags& flags, DesignUnit unit, const std::vector<PatchWindow>& windows) {
-  const PointsFile file = read_points_csv(flags.points, mm_per_unit(unit));
+  const PointsFile file = read_points_csv(
+      flags.points, {unit == DesignUnit::inch ? Unit::inch : Unit::mm, {}, flags.columns, Directions::normalised});
   if (file.error) throw ToolError(file.error);
+  for (const std::string& note : file.notes) fmt::print("{}\n", note);
   // Without directions the side of the material plays no part, so that a design that does not tell it will do.
   const OutwardOption outward = parse_outward(flags.outward);
   const bool either = outward == OutwardOption::automatic && !file.has_approach;
@@ -136,6 +138,9 @@ void check_flags(const SplitFlags& flags) {
   if (!(flags.buffer >= 0)) throw ToolError(fmt::format("--buffer {}: give a number from 0 on", flags.buffer));
   if (flags.points.empty() != flags.subset.empty()) {
     throw ToolError("--points and --subset belong together: rows of the one are written to the other");
+  }
+  if (!flags.columns.empty()) {
+    if (const Failure failure = check_point_columns(flags.columns)) throw ToolError("--columns: " + failure.message);
   }
   for (const std::string& output : {flags.output, flags.subset}) {
     refuse_overwriting(output, "design", flags.design);
@@ -205,6 +210,7 @@ void add_split_command(CLI::App& app, int& exit_code) {
   command->add_option("--buffer", flags->buffer, "Width of the unused strip inside each new patch")
       ->capture_default_str();
   command->add_option("--points", flags->points, "Measured points (x,y,z[,i,j,k]) to choose from");
+  command->add_option("--columns", flags->columns, "What the columns of the points are, as for localize");
   command->add_option("--subset", flags->subset, "Write the row numbers of the points to be used here");
   command->add_option("--outward", flags->outward, "Side away from the material: +, - or auto; for points with i,j,k")
       ->capture_default_str();

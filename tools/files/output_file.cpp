@@ -17,15 +17,25 @@
 namespace bladefit {
 namespace {
 
-/// The file that `path` means: where it is a link, the file behind it. Devices and folders must not be replaced.
+constexpr std::string_view kStandardOutput = "-";
+
+/// What is written to as it comes: nothing can be moved in its place.
+bool is_stream(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  return path == kStandardOutput || std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status);
+}
+
+/// The file that `path` means: where it is a link, the file behind it. Folders must not be replaced.
 std::filesystem::path resolve(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return path;
+  if (!std::filesystem::exists(status) || is_stream(path)) return path;
   if (!std::filesystem::is_regular_file(status)) {
     throw ToolError(fmt::format("{}: is not a regular file; give another output name", path.string()));
   }
-  return std::filesystem::canonical(path);
+  const std::filesystem::path place = std::filesystem::canonical(path, error);
+  return error ? path : place;
 }
 
 /// One name for every way to spell a place. Where the first folder of a relative path is missing, weakly_canonical
@@ -38,7 +48,8 @@ std::filesystem::path place_of(const std::filesystem::path& path) {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw ToolError(fmt::format("{}: cannot be written: {}; check folder, permissions and free space", path.string(),
+  const std::string name = path == kStandardOutput ? "standard output" : path.string();
+  throw ToolError(fmt::format("{}: cannot be written: {}; check folder, permissions and free space", name,
                               std::generic_category().message(error)),
                   ToolError::Kind::device);
 }
@@ -56,10 +67,9 @@ class BlockWriter {
     if (block_.size() >= kBlock) flush();
   }
 
-  /// Writes what is left and syncs; returns 0 or the error of the operating system.
+  /// Writes what is left; returns 0 or the error of the operating system.
   [[nodiscard]] int finish() {
     flush();
-    if (error_ == 0 && ::fsync(descriptor_) != 0) error_ = errno;
     return error_;
   }
 
@@ -81,6 +91,19 @@ class BlockWriter {
   std::string block_;
 };
 
+/// Writes to what is open already, or to what `path` names.
+void write_stream(const std::filesystem::path& path, const TextWriter& write) {
+  const bool standard = path == kStandardOutput;
+  if (standard && std::fflush(stdout) != 0) fail(path, errno);
+  const int descriptor = standard ? STDOUT_FILENO : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, errno);
+  BlockWriter block(descriptor);
+  write([&block](std::string_view piece) { block.put(piece); });
+  const int error = block.finish();
+  const int close_error = standard || ::close(descriptor) == 0 ? 0 : errno;
+  if (error != 0 || close_error != 0) fail(path, error != 0 ? error : close_error);
+}
+
 /// The process that began a part of `name`; nothing where `file` is no such part.
 std::optional<pid_t> writer_of(const std::string& file, const std::string& name) {
   const std::string begin = name + kPartial;
@@ -96,13 +119,18 @@ OutputFile::OutputFile(const std::filesystem::path& path, std::string_view conte
     : OutputFile(path, [content](const Put& put) { put(content); }) {}
 
 OutputFile::OutputFile(const std::filesystem::path& path, const TextWriter& write) : path_(resolve(path)) {
+  if (is_stream(path_)) {
+    write([this](std::string_view piece) { streamed_ += piece; });
+    return;
+  }
   temporary_ = path_;
   temporary_ += fmt::format("{}{}", kPartial, ::getpid());
   const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor < 0) fail(path_, errno);
   BlockWriter block(descriptor);
   write([&block](std::string_view piece) { block.put(piece); });
-  const int error = block.finish();
+  const int write_error = block.finish();
+  const int error = write_error != 0 || ::fsync(descriptor) == 0 ? write_error : errno;
   const int close_error = ::close(descriptor) == 0 ? 0 : errno;
   if (error == 0 && close_error == 0) return;
   ::unlink(temporary_.c_str());
@@ -114,27 +142,17 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::commit() {
+  if (temporary_.empty()) return write_stream(path_, streamed_);
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
   temporary_.clear();
 }
 
-void write_output(const std::string& path, std::string_view content, std::string_view what) {
-  write_output(
-      path, [content](const Put& put) { put(content); }, what);
+void write_output(const std::string& path, std::string_view content) {
+  write_output(path, [content](const Put& put) { put(content); });
 }
 
-void write_output(const std::string& path, const TextWriter& write, std::string_view what) {
-  if (path != "-") {
-    OutputFile(path, write).commit();
-    return;
-  }
-  bool written = true;
-  write([&written](std::string_view piece) {
-    written = written && std::fwrite(piece.data(), 1, piece.size(), stdout) == piece.size();
-  });
-  if (!written || std::fflush(stdout) != 0) {
-    throw ToolError(fmt::format("standard output: cannot write the {}", what), ToolError::Kind::device);
-  }
+void write_output(const std::string& path, const TextWriter& write) {
+  is_stream(path) ? write_stream(path, write) : OutputFile(path, write).commit();
 }
 
 std::vector<std::string> remove_stray_parts(const std::filesystem::path& path) {
@@ -150,7 +168,7 @@ std::vector<std::string> remove_stray_parts(const std::filesystem::path& path) {
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  return !a.empty() && !b.empty() && place_of(a) == place_of(b);
+  return !a.empty() && !b.empty() && a != kStandardOutput && place_of(a) == place_of(b);
 }
 
 void refuse_overwriting(const std::filesystem::path& output, std::string_view what,

@@ -16,8 +16,8 @@ using TextWriter = std::function<void(const Put& put)>;
 /// moved in place by commit(). Without commit() nothing is left behind.
 class OutputFile {
  public:
-  /// Writes `content`. Throws ToolError (device) where that fails, and bad_input where `path` is something else
-  /// than a regular file or a new name.
+  /// Writes `content`. Throws ToolError (device) where that fails, and bad_input where `path` is a folder or something
+  /// else that has no content of its own. To standard output ("-"), a device or a pipe commit() writes.
   OutputFile(const std::filesystem::path& path, std::string_view content);
   OutputFile(const std::filesystem::path& path, const TextWriter& write);
   ~OutputFile();
@@ -29,12 +29,13 @@ class OutputFile {
 
  private:
   std::filesystem::path path_, temporary_;
+  std::string streamed_;  ///< what commit() is to write where nothing can be moved in place
 };
 
-/// Writes `content` to the file `path`, as a whole or not at all, or to standard output where that is "-"; `what` says
-/// in messages what it is. Throws ToolError as OutputFile does.
-void write_output(const std::string& path, const TextWriter& write, std::string_view what);
-void write_output(const std::string& path, std::string_view content, std::string_view what);
+/// Writes `content` to the file `path`, as a whole or not at all, or as it comes to standard output ("-"), a device or
+/// a pipe. Throws ToolError as OutputFile does.
+void write_output(const std::string& path, const TextWriter& write);
+void write_output(const std::string& path, std::string_view content);
 
 /// Removes what killed processes left of `path` before it was complete, and returns the names. Files of processes that
 /// live stay.

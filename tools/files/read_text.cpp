@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 
+#include "drivers/text/read_file.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
+namespace {
+
+/// Designs of whole ships stay below it.
+constexpr std::size_t kMaxFileSize = std::size_t{1} << 29U;
+
+}  // namespace
 
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -19,20 +24,12 @@ std::string lower_extension(const std::filesystem::path& path) {
 }
 
 std::string read_text(const std::filesystem::path& path, std::string_view what) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    throw ToolError(fmt::format("{}: no such file; check the name", path.string()));
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw ToolError(fmt::format("{}: is a folder; name the {} file in it", path.string(), what));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad()) {
-    throw ToolError(fmt::format("{}: cannot be read; check its permissions", path.string()), ToolError::Kind::device);
-  }
-  return text;
+  std::string text;
+  const Failure failure = read_file(path.string(), kMaxFileSize, text);
+  if (!failure) return text;
+  throw ToolError(fmt::format("{}: {}{}", file_name(path.string()), failure.message,
+                              failure.kind == Failure::Kind::bad_input ? fmt::format(" (the {})", what) : ""),
+                  failure.kind);
 }
 
 }  // namespace bladefit

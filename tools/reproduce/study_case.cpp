@@ -32,7 +32,8 @@ FitPlan plan_of(const Json& json, const std::string& file) {
   if (plan.units != "mm" && plan.units != "in") {
     throw ToolError(fmt::format("{}: units: {} is neither mm nor in; give one of them", file, plan.units));
   }
-  plan.mm_per_unit = plan.units == "in" ? kMmPerInch : 1.0;
+  plan.points.unit = plan.units == "in" ? Unit::inch : Unit::mm;
+  plan.mm_per_unit = mm_per_unit(plan.points.unit);
   plan.localizer.regions = RegionPolicy::fixed;
   plan.localizer.use_approach = json.at("use_approach");
   plan.localizer.probe_radius_mm = plan.mm_per_unit * json.at("probe_radius").get<double>();
@@ -69,8 +70,8 @@ StudyCase read_study_case(const std::filesystem::path& folder) {
       study.points[subset.at("name")] = folder / subset.at("points").get<std::string>();
     }
     take_design(study, folder / json.at("design").at("iges").get<std::string>());
-  } catch (const Json::exception& error) {
-    throw ToolError(fmt::format("{}: {}; take the file as it came with the data", file, error.what()));
+  } catch (const Json::exception&) {
+    throw ToolError(fmt::format("{}: is not the description of a case; take the file as it came with the data", file));
   }
   return study;
 }
@@ -80,7 +81,7 @@ std::vector<ProbePoint> read_subset_points(const StudyCase& study, const std::st
   if (found == study.points.end()) {
     throw ToolError(fmt::format("{}: case.json names no subset {}; take the data as it came", study.name, subset));
   }
-  PointsFile file = read_points_csv(found->second.string(), study.plan.mm_per_unit);
+  PointsFile file = read_points_csv(found->second.string(), study.plan.points);
   if (file.error) throw ToolError(file.error);
   return std::move(file.points);
 }

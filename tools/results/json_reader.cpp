@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,9 +15,12 @@ namespace {
 
 double unit_of(const JsonField& units) {
   const std::string name = units.text();
-  if (name == "mm") return 1.0;
-  if (name == "in") return kMmPerInch;
-  units.refuse(fmt::format("is '{}' where mm or in belongs", name.substr(0, kQuotedCharacters)));
+  const auto* const found = std::ranges::find(kUnitWords, name);
+  if (found == kUnitWords.end()) {
+    units.refuse(
+        fmt::format("is '{}' where {} belongs", name.substr(0, kQuotedCharacters), fmt::join(kUnitWords, ", ")));
+  }
+  return mm_per_unit(static_cast<Unit>(found - kUnitWords.begin()));
 }
 
 /// The number that is written as `value` when it is divided by `divisor`. The product alone is often that number's

@@ -105,7 +105,7 @@ struct Result {
 
   ResultVerdict verdict;
   std::string status, mode;  ///< in the words of result.json
-  std::string units = "mm";  ///< mm or in
+  std::string units = "mm";  ///< mm, in, cm or m
   double mm_per_unit = 1.0;
   Pose pose;                       ///< machine -> design
   std::optional<Mat6> covariance;  ///< of (w, dt) [rad, mm]; nothing where undetermined

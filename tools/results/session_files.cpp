@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxFileSize = std::size_t{1} << 30U;
+constexpr std::size_t kMaxFileSize = std::size_t{1} << 29U;
 
 void check_directory(const std::string& directory) {
   std::error_code error;
@@ -57,8 +57,7 @@ std::string read_part(const fs::path& folder, const char* name, const JournalCon
   }
   std::string text;
   if (const Failure failure = read_file(path, kMaxFileSize, text)) {
-    throw ToolError(
-        fmt::format("{}: cannot be read ({}); check the rights of the file", path.string(), failure.message));
+    throw ToolError(fmt::format("{}: {}", path.string(), failure.message), failure.kind);
   }
   return text;
 }

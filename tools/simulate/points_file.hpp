@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/replay/points_csv.hpp"
+
 namespace bladefit::simulate {
 
 /// One touch as the machine knows it.
@@ -14,8 +16,8 @@ struct MachinePoint {
 };
 
 /// Reads the points that the machine touches, by the reader of recordings: the user's CSV is one format. A machine does
-/// not know weights, so those of the file are not served. Positions are multiplied by `mm_per_unit`.
+/// not know weights, so those of the file are not served, and tells its directions as they are written.
 /// Throws ToolError (bad_input) that names file, line and the fix.
-[[nodiscard]] std::vector<MachinePoint> read_points_file(const std::string& path, double mm_per_unit);
+[[nodiscard]] std::vector<MachinePoint> read_points_file(const std::string& path, const PointsFormat& format);
 
 }  // namespace bladefit::simulate

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 
+#include "tools/files/message.hpp"
 #include "tools/files/tool_error.hpp"
 #include "tools/simulate/modbus_rtu_transport.hpp"
 #include "tools/simulate/modbus_tcp_transport.hpp"
@@ -36,7 +36,6 @@ void check(const SimulatorSettings& settings) {
   }
   if (settings.port < 0 || settings.port > 65535) refuse(fmt::format("--port {}: give 0 to 65535", settings.port));
   if (settings.unit < 1 || settings.unit > 247) refuse(fmt::format("--unit {}: give 1 to 247", settings.unit));
-  if (!(settings.mm_per_unit > 0) || !std::isfinite(settings.mm_per_unit)) refuse("--units: give mm or in");
 }
 
 std::unique_ptr<Transport> make_transport(const SimulatorSettings& settings, const FaultSettings& faults,
@@ -72,7 +71,7 @@ class Service {
   Service(const SimulatorSettings& settings, const FaultSettings& faults)
       : settings_(settings),
         log_(settings.verbose),
-        machine_(read_points_file(settings.points, settings.mm_per_unit),
+        machine_(read_points_file(settings.points, settings.points_format),
                  {settings.rate, settings.capacity, settings.run_id, faults.overflow}),
         stamps_(settings.stamps),
         transport_(make_transport(settings, faults, machine_, log_)) {}
@@ -138,7 +137,7 @@ int run_simulator(const SimulatorSettings& settings) {
     simulate::Service(settings, simulate::parse_faults(settings.faults, defaults)).run();
     return 0;
   } catch (const ToolError& failure) {
-    fmt::print(stderr, "simulate: {}\n", failure.what());
+    fmt::print(stderr, "simulate: {}\n", one_line(failure.what()));
     return failure.exit_code();
   }
 }

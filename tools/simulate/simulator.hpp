@@ -3,14 +3,16 @@
 #include <optional>
 #include <string>
 
+#include "drivers/replay/points_csv.hpp"
+
 namespace bladefit {
 
 enum class SimulatorTransport : std::uint8_t { modbus_tcp, modbus_rtu, serial };
 
 /// What the simulated machine measures and how it is reached.
 struct SimulatorSettings {
-  std::string points;      ///< points file
-  double mm_per_unit = 1;  ///< of the points file; on the wire are always mm
+  std::string points;          ///< points file
+  PointsFormat points_format;  ///< of the points file; on the wire are always mm
   SimulatorTransport transport = SimulatorTransport::modbus_tcp;
   int port = 1502;               ///< Modbus TCP, on 127.0.0.1; 0 = any free one
   std::string device;            ///< Modbus RTU and serial: link to the pseudo terminal; empty = its own name

@@ -24,7 +24,10 @@ void Stamps::note(std::uint32_t available) {
   const auto since_boot = std::chrono::steady_clock::now().time_since_epoch();
   const auto nanoseconds = std::chrono::duration_cast<std::chrono::nanoseconds>(since_boot).count();
   while (noted_ < available) fmt::print(file_.get(), "{},{}\n", ++noted_, nanoseconds);
-  std::fflush(file_.get());
+  if (std::fflush(file_.get()) != 0) {
+    throw ToolError(fmt::format("--stamp: cannot be written: {}; check free space", std::strerror(errno)),
+                    ToolError::Kind::device);
+  }
 }
 
 }  // namespace bladefit::simulate

@@ -21,11 +21,6 @@ inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
 enum class DesignUnit : std::uint32_t { mm = 0, inch = 1 };
 
-/// The words of the units on the command line, in files and in results, in the order of their values.
-inline constexpr std::array<std::string_view, 2> kDesignUnitWords = {"mm", "in"};
-
-constexpr std::string_view word_of(DesignUnit unit) { return kDesignUnitWords[static_cast<std::size_t>(unit)]; }
-
 struct ImageHeader {
   char magic[8];
   std::uint32_t version;

@@ -195,9 +195,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SessionFile, NamesAFileThatCannotBeRead) {
   SessionSettings settings;
   EXPECT_EQ(load_session("/nonexistent.toml", settings).message,
-            "/nonexistent.toml: No such file or directory; give a readable TOML file");
-  EXPECT_EQ(load_session("/tmp", settings).message, "/tmp: Is a directory; give a readable TOML file");
-  EXPECT_NE(load_session("/dev/zero", settings).message.find("larger than"), std::string::npos);
+            "/nonexistent.toml: no such file; check the name");
+  EXPECT_EQ(load_session("/tmp", settings).message, "/tmp: is a folder; name a file in it");
+  EXPECT_NE(load_session("/dev/zero", settings).message.find("is a device"), std::string::npos);
 }
 
 TEST(SessionFile, LeavesOpenWhatItDoesNotSay) {
@@ -242,9 +242,9 @@ TEST(DeviceFile, TakesEveryPathFromItsFolder) {
 TEST(DeviceFile, LeavesTheUnitsOfARecordingToTheCallerWhereItDoesNotGiveThem) {
   SourceSettings settings;
   ASSERT_EQ(load_device(File("kind = \"replay\"\n").path, settings).message, "");
-  EXPECT_EQ(std::get<ReplaySettings>(settings).mm_per_unit, std::nullopt);
+  EXPECT_EQ(std::get<ReplaySettings>(settings).format.given_unit, std::nullopt);
   ASSERT_EQ(load_device(File("kind = \"replay\"\n[replay]\nunits = \"mm\"\n").path, settings).message, "");
-  EXPECT_EQ(std::get<ReplaySettings>(settings).mm_per_unit, 1);
+  EXPECT_EQ(std::get<ReplaySettings>(settings).format.given_unit, Unit::mm);
 }
 
 TEST(LeadingEdge, IsReadAsOnTheCommandLine) {

@@ -66,7 +66,7 @@ TEST(FitOptions, KeysAreDifferentAndHaveHelp) {
     EXPECT_GT(option.help.size(), 10U) << option.key;
     EXPECT_EQ(option.help.find("--"), std::string_view::npos) << option.key;
   }
-  EXPECT_EQ(keys.size(), 24U);
+  EXPECT_EQ(keys.size(), 25U);
   EXPECT_EQ(flag_of(option_of("leading_edge")), "--leading-edge");
 }
 
@@ -111,7 +111,7 @@ TEST(FitOptions, EveryWordIsTheEnumeratorOfItsPlace) {
   EXPECT_EQ(word_of(Loss::tukey), "tukey");
   EXPECT_EQ(word_of(EdgePolicy::use), "use");
   EXPECT_EQ(word_of(RegionPolicy::fixed), "fixed");
-  EXPECT_EQ(word_of(DesignUnit::inch), "in");
+  EXPECT_EQ(word_of(Unit::inch), "in");
   const auto& outward = std::get<ChoiceOption<OutwardOption>>(option_of("outward").kind);
   ASSERT_FALSE(set(outward, "-", settings));
   EXPECT_EQ(settings.outward, OutwardOption::minus);

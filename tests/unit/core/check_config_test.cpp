@@ -71,6 +71,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Refused{"window_low", kRange, [](C& c) { c.window_low = c.window_high; }},
                       Refused{"window_high", kRange, [](C& c) { c.window_high = 1.1; }},
                       Refused{"start.translation", kFinite, [](C& c) { c.start.translation[1] = kNan; }},
+                      Refused{"start.translation", kRange, [](C& c) { c.start.translation[2] = 1e13; }},
+                      Refused{"probe_radius_mm", kRange, [](C& c) { c.probe_radius_mm = 1e300; }},
+                      Refused{"loss_scale_mm", kRange, [](C& c) { c.loss_scale_mm = 1e300; }},
                       Refused{"start.rotation", kFinite, [](C& c) { c.start.rotation(2, 1) = kNan; }},
                       Refused{"start.rotation", kRange, [](C& c) { c.start.rotation *= 1.1; }},
                       Refused{"start.rotation", kRange, [](C& c) { c.start.rotation.col(0) *= -1; }}));

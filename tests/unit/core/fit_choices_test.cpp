@@ -140,7 +140,7 @@ TEST(CoreWeights, APointOfWeightThreeCountsAsThree) {
   EXPECT_LT((a.report.pose.translation - b.report.pose.translation).norm(), 1e-10);
   EXPECT_NEAR(a.report.rms_mm, b.report.rms_mm, 1e-12);
   OwnedLocalizer localizer(reference_design("arl_fan").image(), config_of(c, 10));
-  for (const double weight : {0.0, -1.0}) {
+  for (const double weight : {0.0, -1.0, 1e-13, 1e13}) {
     weighted[0].weight = weight;
     EXPECT_EQ(localizer->stage(weighted[0]), Status::out_of_range);
   }

@@ -10,7 +10,7 @@ namespace bladefit {
 namespace {
 
 TEST(PointsCsv, ReadsEveryColumnInAnyOrder) {
-  const PointsFile file = parse_points_csv("path,z,y,x,k,j,i\r\n# a comment\r\n\r\n7,3,2,+1,1,0,0\r\n", "a.csv", 1);
+  const PointsFile file = parse_points_csv("path,z,y,x,k,j,i\r\n# a comment\r\n\r\n7,3,2,+1,1,0,0\r\n", "a.csv", {});
   ASSERT_EQ(file.error.message, "");
   ASSERT_EQ(file.points.size(), 1U);
   EXPECT_EQ(file.points[0].position, (std::array<double, 3>{1, 2, 3}));
@@ -23,15 +23,15 @@ TEST(PointsCsv, ReadsEveryColumnInAnyOrder) {
 
 TEST(PointsCsv, TakesEveryKindOfLineEnd) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
-    const PointsFile file = parse_points_csv("x,y,z" + end + end + "1,2,3" + end + "4,5,6", "a.csv", 1);
+    const PointsFile file = parse_points_csv("x,y,z" + end + end + "1,2,3" + end + "4,5,6", "a.csv", {});
     ASSERT_EQ(file.error.message, "");
     EXPECT_EQ(file.points.size(), 2U);
-    EXPECT_EQ(parse_points_csv("x,y,z" + end + end + "1,2,q", "a.csv", 1).error.message.substr(0, 8), "a.csv:3:");
+    EXPECT_EQ(parse_points_csv("x,y,z" + end + end + "1,2,q", "a.csv", {}).error.message.substr(0, 8), "a.csv:3:");
   }
 }
 
 TEST(PointsCsv, ScalesLengthsAndNotDirections) {
-  const PointsFile file = parse_points_csv("x,y,z,i,j,k\n1,-2,3e1,0.6,0.8,0\n", "a.csv", 25.4);
+  const PointsFile file = parse_points_csv("x,y,z,i,j,k\n1,-2,3e1,0.6,0.8,0\n", "a.csv", {.unit = Unit::inch});
   ASSERT_EQ(file.error.message, "");
   EXPECT_EQ(file.points[0].position, (std::array<double, 3>{25.4, -50.8, 30 * 25.4}));
   EXPECT_NEAR(file.points[0].approach[1], 0.8, 1e-15);
@@ -39,7 +39,7 @@ TEST(PointsCsv, ScalesLengthsAndNotDirections) {
 }
 
 TEST(PointsCsv, NormalisesDirectionsAndKeepsUnknownOnes) {
-  const PointsFile file = parse_points_csv("x,y,z,i,j,k\n1,2,3,0.9995,0,0\n1,2,3,0,0,0", "a.csv", 1);
+  const PointsFile file = parse_points_csv("x,y,z,i,j,k\n1,2,3,0.9995,0,0\n1,2,3,0,0,0", "a.csv", {});
   ASSERT_EQ(file.error.message, "");
   EXPECT_EQ(file.points[0].approach[0], 1.0);
   EXPECT_EQ(file.points[1].approach, (std::array<double, 3>{}));
@@ -53,7 +53,7 @@ struct BadFile {
 class PointsCsvErrors : public testing::TestWithParam<BadFile> {};
 
 TEST_P(PointsCsvErrors, NameFileLineColumnAndMend) {
-  const PointsFile file = parse_points_csv(GetParam().text, "a.csv", 1);
+  const PointsFile file = parse_points_csv(GetParam().text, "a.csv", {});
   EXPECT_TRUE(file.points.empty());
   EXPECT_NE(file.error.message.find(GetParam().error), std::string::npos) << file.error.message;
   EXPECT_TRUE(file.error.message.starts_with("a.csv")) << file.error.message;
@@ -62,40 +62,41 @@ TEST_P(PointsCsvErrors, NameFileLineColumnAndMend) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, PointsCsvErrors,
-    testing::Values(BadFile{"", "empty"}, BadFile{"# only\n", "empty"}, BadFile{"x,y,z\n", "list of points is empty"},
-                    BadFile{"1,2,3\n", "a.csv:1: a number"}, BadFile{"x;y;z\n1;2;3\n", "separated by ';'"},
-                    BadFile{"x,y,q\n", "a.csv:1: unknown column 'q'"}, BadFile{"x,y\n1,2\n", "column 'z' is missing"},
-                    BadFile{"x,y,z,i\n1,2,3,4\n", "column 'j' is missing"}, BadFile{"x,y,z,x\n", "named twice"},
-                    BadFile{"x,y,z\n1,2,abc\n", "a.csv:2: column z: 'abc'"}, BadFile{"x,y,z\n1,2,\n", "column z: ''"},
-                    BadFile{"x,y,z\n\n1,nan,3\n", "a.csv:3: column y: 'nan'"},
-                    BadFile{"x,y,z\ninf,2,3\n", "column x: 'inf'"}, BadFile{"x,y,z\n1e999,2,3\n", "column x"},
-                    BadFile{"x,y,z\n1,2\n", "a.csv:2: 2 columns"}, BadFile{"x,y,z\n1,2,3,4\n", "4 columns"},
-                    BadFile{"x,y,z,path\n1,2,3,70000\n", "column path"},
-                    BadFile{"x,y,z,path\n1,2,3,-1\n", "column path"}, BadFile{"x,y,z\n1 2,2,3\n", "column x: '1 2'"},
-                    BadFile{"x,y,z,i,j,k\n1,2,3,0.5,0,0\n", "length 0.5"}, BadFile{"x,y,z\n1,2,+-3\n", "column z"},
-                    BadFile{std::string("x,y,z\n1,2,3\n\0\1\2", 15), "a.csv:3: a control character"},
-                    BadFile{"\x7f"
-                            "ELF",
-                            "unknown column"}));
+    testing::Values(
+        BadFile{"", "empty"}, BadFile{"# only\n", "empty"}, BadFile{"x,y,z\n", "list of points is empty"},
+        BadFile{"1,2,3\n", "a.csv:1: a number"}, BadFile{"x,y,q\n", "column 'z' is missing among 'x', 'y', 'q'"},
+        BadFile{"x,y\n1,2\n", "column 'z' is missing"}, BadFile{"x,y,z,i\n1,2,3,4\n", "column 'j' is missing"},
+        BadFile{"x,y,z,x\n", "named twice"}, BadFile{"x,y,z\n1,2,abc\n", "a.csv:2: column z: 'abc'"},
+        BadFile{"x,y,z\n1,2,\n", "column z: it is empty"}, BadFile{"x,y,z\n\n1,nan,3\n", "a.csv:3: column y: 'nan'"},
+        BadFile{"x,y,z\ninf,2,3\n", "column x: 'inf'"}, BadFile{"x,y,z\n1e999,2,3\n", "column x"},
+        BadFile{"x,y,z\n1,2\n", "a.csv:2: 2 columns"}, BadFile{"x,y,z\n1,2,3,4\n", "4 columns"},
+        BadFile{"x,y,z,path\n1,2,3,70000\n", "column path"}, BadFile{"x,y,z,path\n1,2,3,-1\n", "column path"},
+        BadFile{"x,y,z\n1 2,2,3\n", "column x: '1 2'"}, BadFile{"x,y,z,i,j,k\n1,2,3,0.5,0,0\n", "length 0.5"},
+        BadFile{"x,y,z\n1,2,+-3\n", "column z"},
+        BadFile{std::string("x,y,z\n1,2,3\n\0\1\2", 15), "a.csv:3: a control character"},
+        BadFile{"\x7f"
+                "ELF",
+                "a.csv:1: column 'x' is missing among '?ELF'"}));
 
 TEST(PointsCsv, IgnoresTheLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   std::setlocale(LC_ALL, "de_DE.UTF-8");
-  EXPECT_EQ(parse_points_csv("x,y,z\n1.5,2,3\n", "a.csv", 1).points[0].position[0], 1.5);
+  EXPECT_EQ(parse_points_csv("x,y,z\n1.5,2,3\n", "a.csv", {}).points[0].position[0], 1.5);
   std::setlocale(LC_ALL, before.c_str());
 }
 
 TEST(PointsCsv, ReadsReferenceFiles) {
-  const PointsFile file = read_points_csv(BLADEFIT_TEST_DATA "/dtmb4119/points.csv", 1);
+  const PointsFile file = read_points_csv(BLADEFIT_TEST_DATA "/dtmb4119/points.csv", {});
   ASSERT_EQ(file.error.message, "");
   EXPECT_EQ(file.points.size(), 2000U);
   EXPECT_EQ(file.points.back().sequence, 2000U);
 }
 
 TEST(PointsCsv, NamesAFileThatCannotBeRead) {
-  EXPECT_NE(read_points_csv("/nonexistent/a.csv", 1).error.message.find("/nonexistent/a.csv: No such file"),
-            std::string::npos);
-  EXPECT_NE(read_points_csv("/tmp", 1).error.message.find("/tmp: Is a directory"), std::string::npos);
+  EXPECT_NE(
+      read_points_csv("/nonexistent/a.csv", {}).error.message.find("/nonexistent/a.csv: no such file; check the name"),
+      std::string::npos);
+  EXPECT_NE(read_points_csv("/tmp", {}).error.message.find("/tmp: is a folder; name a file in it"), std::string::npos);
 }
 
 }  // namespace

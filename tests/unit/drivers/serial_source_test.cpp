@@ -275,7 +275,7 @@ TEST(ReplaySource, DeliversTheFileAndFinishes) {
   EXPECT_EQ(source->status().run_id, run);
   EXPECT_NE(source->open(51, 0).message.find("has 50 points, but the session already holds 51"), std::string::npos);
   settings.file = "/nonexistent.csv";
-  EXPECT_NE(make_source(settings)->open(0, 0).message.find("/nonexistent.csv: No such file"), std::string::npos);
+  EXPECT_NE(make_source(settings)->open(0, 0).message.find("/nonexistent.csv: no such file"), std::string::npos);
 }
 
 }  // namespace

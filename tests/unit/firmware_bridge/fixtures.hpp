@@ -23,7 +23,7 @@ inline const DesignImage& blade() { return reference_design("dtmb4119").image();
 
 /// The first `count` measured points of the case.
 inline std::vector<ProbePoint> measured_points(std::size_t count) {
-  PointsFile file = read_points_csv(std::string(BLADEFIT_TEST_DATA) + "/dtmb4119/points.csv", 1.0);
+  PointsFile file = read_points_csv(std::string(BLADEFIT_TEST_DATA) + "/dtmb4119/points.csv", {});
   if (file.error || file.points.size() < count) std::abort();
   file.points.resize(count);
   return file.points;

@@ -93,7 +93,7 @@ TEST(DesignCompile, FailedOutputLeavesNoFile) {
   write_design(folder);
   EXPECT_EQ(run_compile(folder, "blade.igs -o missing/blade.bfd --outward +"), 3);
   EXPECT_EQ(run_compile(folder, "blade.igs -o blade.bfd --c-array missing/blade.c --outward +"), 3);
-  EXPECT_EQ(run_compile(folder, "blade.igs -o /dev/full --outward +"), 2);
+  EXPECT_EQ(run_compile(folder, "blade.igs -o /dev/full --outward +"), 3);
   EXPECT_EQ(count_files(folder), 2U);
 }
 

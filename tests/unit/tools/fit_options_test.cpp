@@ -49,7 +49,7 @@ TEST(FitFlags, ValuesArriveParsed) {
   ASSERT_EQ(flags.leading_edge->size(), 2U);
   EXPECT_EQ(flags.leading_edge->at(1).patch, 1U);
   EXPECT_EQ(flags.tolerance, 2);
-  EXPECT_EQ(flags.units, DesignUnit::inch);
+  EXPECT_EQ(flags.units, Unit::inch);
   EXPECT_EQ(outward_of(flags), OutwardOption::minus);
   EXPECT_EQ(flags.lock, 33);
   EXPECT_EQ(flags.window->high, 0.9);

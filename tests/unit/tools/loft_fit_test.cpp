@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/unit/tools/design_fixtures.hpp"
+#include "tools/design/loft/leading_edge.hpp"
 #include "tools/design/loft/loft.hpp"
 #include "tools/design/loft/spline_fit.hpp"
 
@@ -154,6 +155,35 @@ TEST(Loft, TakesOtherDegreesAndKnots) {
   const double usual = loft_deviation(loft(sections, {}, 1), sections, 1).rms_mm;
   EXPECT_LT(fine, usual);
   EXPECT_LT(usual, coarse);
+}
+
+TEST(SplineFit, AveragedKnotsLieWhereTheParametersDo) {
+  const std::vector<long double> even = even_parameters(9);
+  for (const double knot : averaged_knots(even, 3)) EXPECT_TRUE(knot > 0 && knot < 1);
+  std::vector<long double> dense;
+  for (int k = 0; k <= 100; ++k) dense.push_back(0.5L + 0.5L * std::pow((k - 50) / 50.0L, 3));
+  const std::vector<double> knots = averaged_knots(dense, 20);
+  EXPECT_TRUE(std::is_sorted(knots.begin(), knots.end()));
+  EXPECT_GT(std::ranges::count_if(knots, [](double knot) { return std::abs(knot - 0.5) < 0.1; }), 10);
+}
+
+TEST(Loft, FollowsThePointsWhereTheyAreDense) {
+  const BladeSections sections = read_sections_csv(BLADEFIT_TEST_DATA "/pnsy_sub/sections.csv");
+  const double uniform = loft_deviation(loft(sections, {}, 1), sections, 1).largest_mm;
+  const double following = loft_deviation(loft(sections, {.follow_points = true}, 1), sections, 1).largest_mm;
+  EXPECT_LT(following, 0.5 * uniform);
+}
+
+TEST(Loft, TellsWhereTheLeadingEdgeIs) {
+  const BladeSections sections = read_sections_csv(BLADEFIT_TEST_DATA "/pnsy_sub/sections.csv");
+  const std::optional<LeadingEdgeRange> edge = leading_edge_of(sections);
+  ASSERT_TRUE(edge.has_value());
+  EXPECT_GT(edge->v_min, 0.4);
+  EXPECT_LT(edge->v_max, 0.6);
+  EXPECT_LE(edge->v_min, edge->v_max);
+  BladeSections open = sections;
+  open.sections[3].points.resize(90);
+  EXPECT_FALSE(leading_edge_of(open).has_value());
 }
 
 }  // namespace

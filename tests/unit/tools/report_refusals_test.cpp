@@ -82,7 +82,7 @@ struct Damage {
 TEST(ReportRefusals, DamagedResult) {
   const std::vector<Damage> table = {
       {"\"mode\": \"least_squares\",", "", {"field mode is missing"}},
-      {"\"units\": \"in\"", "\"units\": \"ft\"", {"field units", "'ft'", "mm or in"}},
+      {"\"units\": \"in\"", "\"units\": \"ft\"", {"field units", "'ft'", "mm, in, cm, m belongs"}},
       {"\"tolerance\": 0.01", "\"tolerance\": \"x\"", {"field regions.leading_edge.tolerance is not a number"}},
       {"\"patch\": 0", "\"patch\": -1", {"field regions.leading_edge.boxes[0].patch is not a whole number"}},
       {"\"covariance\": null", "\"covariance\": [1]", {"field covariance has 1 elements where 6 belong"}},

@@ -85,6 +85,17 @@ TEST(WorldChecks, NameTheFactorOfAnotherUnit) {
 }
 
 /// Real points of a small part of the blade are no smaller blade.
+TEST(WorldChecks, NameTheUnitThatUndoesTheFactor) {
+  const auto ends = [](double factor, Unit unit, const std::string& words) {
+    return unit_sentence({factor, true}, unit).ends_with(words);
+  };
+  EXPECT_TRUE(ends(1.0 / 1000.0, Unit::mm, "; give --units m"));
+  EXPECT_TRUE(ends(1.0 / 25.4, Unit::mm, "; give --units in"));
+  EXPECT_TRUE(ends(25.4, Unit::inch, "; give --units mm"));
+  EXPECT_TRUE(ends(100.0, Unit::metre, "; give --units cm"));
+  EXPECT_TRUE(ends(25.4, Unit::mm, "or correct the unit of the design"));
+}
+
 TEST(WorldChecks, ASmallPartIsNoOtherUnit) {
   std::vector<ProbePoint> points = read_subset_points(propeller_blade(), "full");
   const Vec3 middle(points[700].position.data());

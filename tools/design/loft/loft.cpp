@@ -27,8 +27,9 @@ void check_degree(const char* option, int degree) {
 }
 
 void check_knots(const LoftSettings& settings) {
-  if (settings.control_points && !settings.knots.empty()) {
-    throw ToolError("--control-points and --knots: give one of them, not both");
+  if (!settings.knots.empty() && (settings.control_points || settings.follow_points)) {
+    throw ToolError(fmt::format("--{} and --knots: give one of them, not both",
+                                settings.control_points ? "control-points" : "follow-points"));
   }
   double before = 0;
   for (const double knot : settings.knots) {
@@ -65,16 +66,37 @@ void check_counts(const BladeSections& sections, const LoftSettings& settings, i
   }
 }
 
-std::vector<ExtendedPoint> fit_section(const BladeSections& sections, const BladeSection& section,
-                                       const SurfaceDirection& direction) {
+std::vector<long double> parameters_of(const BladeSections& sections, const BladeSection& section,
+                                       const std::vector<ExtendedPoint>& points) {
+  auto parameters = chord_parameters(points);
+  if (parameters) return *std::move(parameters);
+  throw ToolError(fmt::format("{}:{}: all points of section {} are the same; give points along the section",
+                              sections.file, section.lines.front(), section.name));
+}
+
+std::vector<ExtendedPoint> points_of(const BladeSection& section) {
   std::vector<ExtendedPoint> points;
   for (const Eigen::Vector3d& point : section.points) points.emplace_back(point.cast<long double>());
-  const auto parameters = chord_parameters(points);
-  if (!parameters) {
-    throw ToolError(fmt::format("{}:{}: all points of section {} are the same; give points along the section",
-                                sections.file, section.lines.front(), section.name));
+  return points;
+}
+
+/// The internal knots along the sections.
+std::vector<double> section_knots(const BladeSections& sections, const LoftSettings& settings, int count) {
+  if (!settings.knots.empty()) return settings.knots;
+  const int knots = count - settings.degree - 1;
+  if (!settings.follow_points) return uniform_knots(knots);
+  std::vector<double> mean(static_cast<std::size_t>(knots), 0.0);
+  for (const BladeSection& section : sections.sections) {
+    const std::vector<double> own = averaged_knots(parameters_of(sections, section, points_of(section)), knots);
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += own[k] / static_cast<double>(sections.sections.size());
   }
-  auto controls = fit_spline(direction, *parameters, points);
+  return mean;
+}
+
+std::vector<ExtendedPoint> fit_section(const BladeSections& sections, const BladeSection& section,
+                                       const SurfaceDirection& direction) {
+  const std::vector<ExtendedPoint> points = points_of(section);
+  auto controls = fit_spline(direction, parameters_of(sections, section, points), points);
   if (controls) return *std::move(controls);
   throw ToolError(
       fmt::format("{}:{}: section {} has no points between some knots, so that the curve is not "
@@ -112,8 +134,7 @@ NurbsSurface loft(const BladeSections& sections, const LoftSettings& settings, d
   check_knots(settings);
   const int count = control_point_count(sections, settings);
   check_counts(sections, settings, count);
-  surface.v = clamped_direction(settings.degree,
-                                settings.knots.empty() ? uniform_knots(count - settings.degree - 1) : settings.knots);
+  surface.v = clamped_direction(settings.degree, section_knots(sections, settings, count));
   const int span_knots = static_cast<int>(sections.sections.size()) - settings.span_degree - 1;
   surface.u = clamped_direction(settings.span_degree, uniform_knots(span_knots));
   std::vector<std::vector<ExtendedPoint>> curves;

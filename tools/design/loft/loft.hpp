@@ -13,6 +13,7 @@ struct LoftSettings {
   int span_degree = 3;                     ///< from section to section, u
   std::optional<int> control_points = {};  ///< along a section
   std::vector<double> knots = {};          ///< internal ones along a section, in place of uniform ones where not empty
+  bool follow_points = false;              ///< knots are dense where the points of the sections are
 };
 
 /// The control points along a section that are taken unless others are asked for: a third of the points of the shortest

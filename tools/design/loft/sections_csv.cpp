@@ -17,7 +17,8 @@ enum Column : std::size_t { section_column, x_column, y_column, z_column, index_
 constexpr std::size_t kNeeded = 4;
 constexpr std::string_view kHeaderMend = "the first line must name the columns: section,x,y,z[,index][,r_over_R]";
 
-constexpr CsvFormat kFormat{kColumns, kNeeded, 0, kHeaderMend};
+constexpr CsvFormat kFormat{
+    .columns = kColumns, .needed = kNeeded, .together = 0, .first_length = x_column, .lengths = 3, .fix = kHeaderMend};
 
 [[noreturn]] void fail(const CsvPlace& place, std::string_view what) { throw ToolError(place.say(what)); }
 
@@ -30,14 +31,11 @@ struct Row {
 
 Row parse_row(const CsvRow& cells) {
   Row row;
-  for (std::size_t k = 0; k < cells.cells.size(); ++k) {
-    const std::size_t column = cells.columns[k];
-    if (column == section_column) {
-      row.section = cells.cells[k];
-      continue;
-    }
+  row.section = cells.values[section_column];
+  for (std::size_t column = x_column; column < kColumns.size(); ++column) {
+    if (!cells.header->has[column]) continue;
     double value = 0;
-    if (const Failure failure = finite_cell(cells, k, kFormat, value)) throw ToolError(failure);
+    if (const Failure failure = finite_cell(cells, column, kFormat, value)) throw ToolError(failure);
     if (column == index_column) row.index = value;
     if (column == radius_column) row.radius = value;
     if (column >= x_column && column <= z_column) row.point[static_cast<Eigen::Index>(column - x_column)] = value;
@@ -88,11 +86,14 @@ BladeSections parse_sections_csv(std::string_view text, const std::string& name)
   BladeSections result;
   result.file = name;
   SectionCollector collector(result);
-  const Failure failure = read_csv_table(text, name, kFormat, [&](const CsvRow& row) {
+  CsvHeader header;
+  const Failure failure = read_csv_table(text, name, kFormat, {}, header, [&](const CsvRow& row) {
     collector.take(row.place, parse_row(row));
     return Failure();
   });
   if (failure) throw ToolError(failure);
+  result.unit = header.unit;
+  result.note = header.unused_note();
   if (result.sections.empty()) {
     throw ToolError(fmt::format("{}: there is no point in the file; add a line for each point", name));
   }

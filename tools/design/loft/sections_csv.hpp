@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/text/units.hpp"
+
 namespace bladefit {
 
 /// One blade section: points along a cut of the blade, in the order in which they lie on it.
@@ -20,6 +22,8 @@ struct BladeSection {
 struct BladeSections {
   std::string file;
   std::vector<BladeSection> sections;  ///< lengths in the unit of the file
+  std::optional<Unit> unit;            ///< of the lengths, where the file says it
+  std::string note;                    ///< columns that are not used; empty = none
 };
 
 /// Reads sections from `text`, the content of the file `name`. The first line that is neither empty nor a comment (#)

@@ -143,6 +143,17 @@ std::vector<double> uniform_knots(int count) {
   return knots;
 }
 
+std::vector<double> averaged_knots(const std::vector<long double>& parameters, int count) {
+  const double step = static_cast<double>(parameters.size()) / (count + 1);
+  std::vector<double> knots;
+  for (int j = 1; j <= count; ++j) {
+    const auto i = static_cast<std::size_t>(j * step);
+    const Extended share = static_cast<Extended>(j * step) - static_cast<Extended>(i);
+    knots.push_back(static_cast<double>((1 - share) * parameters[i - 1] + share * parameters[i]));
+  }
+  return knots;
+}
+
 SurfaceDirection clamped_direction(int degree, const std::vector<double>& internal) {
   SurfaceDirection direction;
   direction.degree = degree;

@@ -13,6 +13,10 @@ using ExtendedPoint = Eigen::Matrix<long double, 3, 1>;
 /// `count` internal knots that divide 0..1 evenly: k / (count + 1).
 std::vector<double> uniform_knots(int count);
 
+/// `count` internal knots that divide the parameters into spans of about as many points each
+/// (The NURBS Book, eq. 9.68 and 9.69).
+std::vector<double> averaged_knots(const std::vector<long double>& parameters, int count);
+
 /// Parameters 0..1 with the ends of the range `degree` + 1 times, so that the curve passes through its first and last
 /// control point; `internal` are the knots between, inside 0..1 and never falling.
 SurfaceDirection clamped_direction(int degree, const std::vector<double>& internal);
