@@ -97,9 +97,10 @@ void read_dro(TableReader table, DroSettings& dro) {
   table.read_choice<DroLayout>(
       "line_holds", dro.layout,
       {{"auto", DroLayout::open}, {"point", DroLayout::whole_points}, {"axis", DroLayout::single_axes}});
-  if (!dro.labels && dro.layout == DroLayout::single_axes)
+  if (!dro.labels && dro.layout == DroLayout::single_axes) {
     table.fail("line_holds",
                "is \"axis\" without labels: a lost line would mix two points; let the read-out send labels");
+  }
   table.read("separators", dro.separators);
   if (dro.separators.empty()) table.fail("separators", "is empty; name at least one character, such as \" \"");
   table.read_choice<char>("decimal_mark", dro.decimal_mark, {{".", '.'}, {",", ','}});

@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 
 units=$(mktemp -d)
 trap 'rm -rf "$units"' EXIT
-flags=(-std=c++20 "-I$PWD" -DEIGEN_MPL2_ONLY -DFMT_SHARED -DBLADEFIT_TEST_DATA='"tests/data"')
+flags=(-std=c++20 "-I$PWD" -DEIGEN_MPL2_ONLY -DFMT_SHARED -DBLADEFIT_TEST_DATA='"tests/data"' -DBLADEFIT_VERSION='"0"')
 flags+=(-isystem /usr/include/eigen3 -isystem /usr/include/modbus -isystem /usr/include/opencascade)
 flags+=(-isystem /usr/include/coin -DHAVE_CSTDDEF)  # Ipopt's, for tests/bench
 

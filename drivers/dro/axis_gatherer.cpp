@@ -83,9 +83,10 @@ void AxisGatherer::take_axis(const AxisLine& line, std::vector<DroPoint>& points
     orphans_told_ = true;
   }
   if (!begins && group_.empty()) {
-    if (!orphans_told_)
+    if (!orphans_told_) {
       give_up(outcome, fmt::format("{} came without {} before it: a line is lost", axis_letter(line.axis),
                                    axis_letter(*first_axis_)));
+    }
     orphans_told_ = true;
     return;
   }

@@ -151,7 +151,8 @@ constexpr auto kFields = std::to_array<PanelField>({
         "bit 0 not converged, 1 underdetermined, 2 unproven, 3 points lost or refused, 4 leading-edge "
         "zone not probed, 5 pending, undecided or unfinished, 6 link lost, 7 wrong units or mirrored, "
         "8 ambiguous or far start, 9 not judged: a tolerance is infinite"),
-    constant<kPanelTestReal>(283, "test_real", "12345.678; another value: the word order is wrong"),
+    PanelField{283, PanelType::real, none, "test_real", "12345.678; another value: the word order is wrong",
+               [](const State&, std::size_t) { return bits_of(kPanelTestReal); }},
     constant<kPanelTestWord>(285, "test_word", "0x12345678 = 305419896; another value: the word order is wrong"),
     field<&State::planned>(287, none, "points_planned", "points that will come; 0 = not known"),
     field<&State::ended>(289, none, "host_state", "0 running, 1 ended: what is shown is the result"),
