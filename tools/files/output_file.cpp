@@ -142,7 +142,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::commit() {
-  if (temporary_.empty()) return write_stream(path_, streamed_);
+  if (temporary_.empty()) return write_stream(path_, [this](const Put& put) { put(streamed_); });
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, errno);
   temporary_.clear();
 }
