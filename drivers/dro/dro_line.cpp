@@ -15,19 +15,13 @@ namespace {
 constexpr std::size_t kLongestNumber = 64;
 constexpr std::string_view kBlanks = " \t";
 constexpr std::string_view kAxisLetters = "xyz";
-constexpr std::string_view kInchMark = "\"", kMmMark = "mm";
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 bool is_sign(char character) { return character == '+' || character == '-'; }
 char lower(char character) { return static_cast<char>(std::tolower(static_cast<unsigned char>(character))); }
 
-/// A unit that a mark behind a number tells.
-struct UnitMark {
-  std::string_view word;  ///< in the line, lower case
-  std::string_view name;
-};
-constexpr std::array<UnitMark, 5> kUnitMarks = {
-    {{"mm", kMmMark}, {"inch", kInchMark}, {"in", kInchMark}, {"\"", kInchMark}, {"''", kInchMark}}};
+/// Marks behind a number that tell its unit, in lower case, a longer one before its beginning.
+constexpr std::array<std::string_view, 5> kUnitMarks = {word_of(Unit::mm), "inch", word_of(Unit::inch), "\"", "''"};
 
 class LineParser {
  public:
@@ -45,7 +39,9 @@ class LineParser {
   [[nodiscard]] std::string take_digits(DroNumber& number);
 
   [[nodiscard]] char peek() const { return rest_.empty() ? '\0' : rest_.front(); }
-  [[nodiscard]] bool at_label() const { return settings_.labels && kAxisLetters.find(lower(peek())) < kAxisLetters.size(); }
+  [[nodiscard]] bool at_label() const {
+    return settings_.labels && kAxisLetters.find(lower(peek())) < kAxisLetters.size();
+  }
 
   std::size_t skip(std::string_view characters) {
     const std::size_t count = std::min(rest_.find_first_not_of(characters), rest_.size());
@@ -157,7 +153,6 @@ Failure LineParser::take_number(std::size_t axis, DroNumber& number) {
 
 /// What stands behind a number up to the next one.
 Failure LineParser::take_marks(std::size_t axis, DroNumber& number) {
-  const bool inches = settings_.mm_per_unit == kMmPerInch;
   while (true) {
     const std::string_view before = rest_;
     skip(settings_.separators);
@@ -166,17 +161,18 @@ Failure LineParser::take_marks(std::size_t axis, DroNumber& number) {
       rest_ = before;
       return {};
     }
-    const auto unit = std::ranges::find_if(kUnitMarks, [this](const UnitMark& mark) {
-      return mark.word.size() <= rest_.size() &&
-             std::ranges::equal(mark.word, rest_.substr(0, mark.word.size()), {}, {}, lower);
+    const auto mark = std::ranges::find_if(kUnitMarks, [this](std::string_view word) {
+      return word.size() <= rest_.size() && std::ranges::equal(word, rest_.substr(0, word.size()), {}, {}, lower);
     });
-    if (unit != kUnitMarks.end()) {
-      if ((unit->name == kInchMark) != inches) {
-        return bad_input(fmt::format("{} is marked {}, but units are {} (set units = \"{}\", or switch the read-out)",
-                                     axis_letter(axis), unit->word, inches ? "in" : "mm", inches ? "mm" : "in"));
+    if (mark != kUnitMarks.end()) {
+      const Unit unit = parse_unit(*mark).value();
+      if (mm_per_unit(unit) != settings_.mm_per_unit) {
+        return bad_input(
+            fmt::format("{} is marked {}, but units are others (set units = \"{}\", or switch the read-out)",
+                        axis_letter(axis), *mark, word_of(unit)));
       }
-      number.marks += unit->name;
-      rest_.remove_prefix(unit->word.size());
+      number.marks += word_of(unit);
+      rest_.remove_prefix(mark->size());
     } else if (settings_.marks.find(next) != std::string::npos) {
       number.marks += next;
       rest_.remove_prefix(1);
@@ -202,7 +198,9 @@ std::size_t DroLine::first_axis() const {
                                   axes.begin());
 }
 
-char axis_letter(std::size_t axis) { return static_cast<char>(std::toupper(static_cast<unsigned char>(kAxisLetters[axis]))); }
+char axis_letter(std::size_t axis) {
+  return static_cast<char>(std::toupper(static_cast<unsigned char>(kAxisLetters[axis])));
+}
 
 Failure parse_dro_line(std::string_view text, const DroSettings& settings, DroLine& line) {
   DroLine read;

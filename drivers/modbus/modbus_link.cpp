@@ -4,11 +4,17 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <thread>
 
 #include "drivers/modbus/rtu_link.hpp"
 #include "drivers/modbus/tcp_link.hpp"
 
 namespace bladefit {
+
+bool ModbusLink::exchange(const ModbusRequest& request, std::span<std::uint16_t> registers, Clock::time_point until) {
+  std::this_thread::sleep_until(std::min(until, ready_at_));
+  return send(request) == LinkEvent::done && receive(registers, until) == LinkEvent::done;
+}
 
 std::size_t ModbusLink::receive_frame(std::span<std::uint8_t, MODBUS_MAX_ADU_LENGTH> frame, LinkEvent& event) {
   constexpr std::int64_t kLeastTimeoutUs = 1000;

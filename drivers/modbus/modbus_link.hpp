@@ -52,6 +52,10 @@ class ModbusLink {
 
   virtual void close() = 0;
 
+  /// Sends a request as soon as it may and waits for its reply until `until`. Whether it came.
+  [[nodiscard]] bool exchange(const ModbusRequest& request, std::span<std::uint16_t> registers,
+                              Clock::time_point until);
+
   /// Before this moment nothing may be sent.
   [[nodiscard]] Clock::time_point ready_at() const { return ready_at_; }
 

@@ -254,12 +254,11 @@ void ModbusSource::transaction_failed(LinkEvent event) {
 /// The device lacks the function or register of a request. False where there is no other way to what it was for.
 bool ModbusSource::adapt(Purpose purpose, LinkEvent event) {
   CmmMap& map = settings_.map;
-  const bool writes = purpose == Purpose::acknowledge || purpose == Purpose::command;
   // A register that was there when the session began is waited for.
-  if (event == LinkEvent::absent && !(writes && opening_)) return false;
+  if (event == LinkEvent::absent && !(writes(purpose) && opening_)) return false;
   NumberField& written = purpose == Purpose::command ? map.command : map.acknowledge;
   const std::vector<std::string> remarks =
-      writes ? give_up_writing(written, link_->fault()) : read_holding_instead(map);
+      writes(purpose) ? give_up_writing(written, link_->fault()) : read_holding_instead(map);
   if (!map.command.present) next_command_ = 0;
   for (const std::string& remark : remarks) note_remark(status_, remark);
   return !remarks.empty();
@@ -267,11 +266,9 @@ bool ModbusSource::adapt(Purpose purpose, LinkEvent event) {
 
 /// What was refused is asked again, a poll period later.
 void ModbusSource::request_refused(Purpose purpose, LinkEvent event) {
-  const bool writes = purpose == Purpose::acknowledge || purpose == Purpose::command;
-  writes ? schedule_.write_refused(Clock::now()) : schedule_.read_refused(Clock::now());
-  if (opening_ && event == LinkEvent::refused) {
+  writes(purpose) ? schedule_.write_refused(Clock::now()) : schedule_.read_refused(Clock::now());
+  if (opening_ && event == LinkEvent::refused)
     refusal_ = link_->fault() + "; correct the addresses, or lower batch, in the device file";
-  }
 }
 
 void ModbusSource::link_lost(const std::string& fault) {
@@ -285,9 +282,7 @@ void ModbusSource::link_lost(const std::string& fault) {
 /// Writes once and waits for the reply until `until`.
 bool ModbusSource::write_now(const NumberField& field, std::uint32_t value, Clock::time_point until) {
   if (!field.present || !link_->is_open()) return false;
-  std::this_thread::sleep_until(std::min(until, link_->ready_at()));
-  if (link_->send(write_request(settings_.map, field, value)) != LinkEvent::done) return false;
-  return link_->receive(registers_, until) == LinkEvent::done;
+  return link_->exchange(write_request(settings_.map, field, value), registers_, until);
 }
 
 void ModbusSource::close() {
@@ -296,12 +291,9 @@ void ModbusSource::close() {
   const CmmMap& map = settings_.map;
   const bool talks = link_->is_open() && status_.link == LinkState::up && !headers_.foreign();
   const bool due = acknowledgement_.is_due() && ring_.knows(acknowledgement_.stored());
-  if (talks && due && write_now(map.acknowledge, acknowledgement_.send(), until)) {
-    acknowledgement_.confirm();
-  }
-  if (talks && !write_now(map.command, map.command_stop, until) && map.command.present) {
+  if (talks && due && write_now(map.acknowledge, acknowledgement_.send(), until)) acknowledgement_.confirm();
+  if (talks && !write_now(map.command, map.command_stop, until) && map.command.present)
     note_fault(status_, "the device did not confirm the stop; stop it at its own screen");
-  }
   link_->close();
   stage_ = Stage::down;
   transaction_.purpose = Purpose::none;

@@ -32,6 +32,7 @@ class ModbusSource final : public ProbeSource {
 
   /// What the transaction under way is for, or what is to be done next where none is.
   enum class Purpose : std::uint8_t { none, header, records, acknowledge, command };
+  static bool writes(Purpose purpose) { return purpose == Purpose::acknowledge || purpose == Purpose::command; }
 
   /// How far the talk with the device has come since the link was made.
   enum class Stage : std::uint8_t { down, connecting, identify, announce, command, running };

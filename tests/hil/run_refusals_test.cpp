@@ -24,7 +24,7 @@ void expect_device_failure(const std::string& source, const std::vector<std::str
   expect_failure(3, source, words);
 }
 
-TEST(RunRefusals, ARecordingThatIsNotThere) { expect_failure(2, "replay:nowhere.csv", {"nowhere.csv: No such file"}); }
+TEST(RunRefusals, ARecordingThatIsNotThere) { expect_failure(2, "replay:nowhere.csv", {"nowhere.csv: no such file"}); }
 
 TEST(RunRefusals, NobodyListensAtThePort) { expect_device_failure("modbus-tcp://127.0.0.1:1", {"127.0.0.1:1"}); }
 

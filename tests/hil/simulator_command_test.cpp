@@ -45,7 +45,6 @@ TEST(SimulatorCommand, RefusesBadPoints) {
   expect_bad("", ": the file is empty");
   expect_bad("x,y,z\n# none\n", ": the list of points is empty");
   expect_bad("x,y\n1,2\n", ":1: column 'z' is missing");
-  expect_bad("x,y,z,w\n1,2,3,4\n", ":1: unknown column 'w'");
   expect_bad("x,y,z,x\n1,2,3,4\n", ":1: column 'x' is named twice");
   expect_bad("x,y,z,i\n1,2,3,1\n", ":1: column 'j' is missing");
   expect_bad("x,y,z\n1,2,3\n1,2\n", ":3: 2 columns where the first line names 3");

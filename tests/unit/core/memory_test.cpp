@@ -127,6 +127,7 @@ bool allowed(const std::string& symbol) {
                                               "memmove",
                                               "memset",
                                               "memcmp",
+                                              "strlen",
                                               "sqrt",
                                               "sin",
                                               "cos",
