@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "tools/design/nurbs/neighbours.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -14,6 +16,9 @@ constexpr std::size_t kListed = 4;
 constexpr double kSmallest_mm = 10, kLargest_mm = 20000;
 /// A sliver is narrower than this part of the design, in mean width.
 constexpr double kSliver = 1e-5;
+
+/// Edges of two faces that run side by side so far apart [mm] leave a gap that may not be meant.
+constexpr double kClosed_mm = 0.1, kApart_mm = 0.5;
 
 double diagonal(const NurbsSurface& surface) {
   Eigen::AlignedBox3d box;
@@ -61,6 +66,11 @@ std::vector<std::string> design_doubts(const DesignFile& design) {
     const double width = design.faces[k].area / std::max(diagonal(design.surfaces[k]), 1e-300);
     if (width >= kSliver * size) continue;
     doubts.push_back(fmt::format("{} is a sliver, {:.2g} mm wide", title(design.faces[k]), width));
+  }
+  for (const Neighbours& pair : find_neighbours(design.surfaces, kApart_mm)) {
+    if (pair.gap_mm <= kClosed_mm) continue;
+    doubts.push_back(fmt::format("{} and {} run side by side up to {:.2g} mm apart: points between them have no foot",
+                                 title(design.faces[pair.surface]), title(design.faces[pair.other]), pair.gap_mm));
   }
   for (const std::string& missing : design.missing) doubts.push_back("left out: " + missing);
   return doubts;
