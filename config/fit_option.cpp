@@ -80,9 +80,18 @@ constexpr std::array kOptions{
               "0.0", true},
     FitOption{"window", WindowOption{&S::window}, apply_window,
               "use only points whose foot before the fit has a <= u,v <= b, for example 0.05:0.95", "\"0.05:0.95\""},
-    FitOption{"outward", ChoiceOption<OutwardOption>{&S::outward, kOutwardWords}, nullptr,
-              "+, - or auto: side of the surface, that of Su x Sv or the other, away from the material (default auto)",
-              "\"auto\""},
+    FitOption{
+        "outward", OutwardKind{&S::outward}, nullptr,
+        "+, - or auto: side away from the material, that to which the faces look (of Su x Sv, where the file says "
+        "nothing else) or the other (default auto: by the shape); or a side for each face, by number, name or "
+        "pattern: SUCTION:+,3:-",
+        "\"auto\""},
+    FitOption{"face", NamesOption{&S::face}, nullptr,
+              "a face of the design to be used, by its number in compile with list, its name or a pattern such as "
+              "BLADE*; once for each (default: all)",
+              "[\"SUCTION\", \"PRESSURE\"]"},
+    FitOption{"allow_missing", FlagOption{&S::allow_missing}, nullptr,
+              "go on without the faces of the design that cannot be read", "true"},
     FitOption{"probe_radius", NumberOption{&S::probe_radius, 0, kLargest},
               [](const S& s, double mm, C& c) { c.probe_radius_mm = *s.probe_radius * mm; },
               "points are centres of a ball of this radius, in units (default 0)", "0.0", true},
@@ -199,6 +208,18 @@ Failure set(const BoxesOption& option, const std::vector<std::string>& given, Fi
     if (const Failure error = parse_leading_edge(given[k], boxes[k])) return error;
   }
   settings.*option.value = std::move(boxes);
+  return {};
+}
+
+Failure set(const OutwardKind& option, const std::string& given, FitSettings& settings) {
+  OutwardChoice choice;
+  if (const Failure error = parse_outward(given, choice)) return error;
+  settings.*option.value = std::move(choice);
+  return {};
+}
+
+Failure set(const NamesOption& option, const std::vector<std::string>& given, FitSettings& settings) {
+  settings.*option.value = given;
   return {};
 }
 

@@ -40,6 +40,18 @@ struct BoxesOption {
   std::optional<std::vector<ParameterBox>> FitSettings::*value;
 };
 
+/// As parse_outward() reads it.
+struct OutwardKind {
+  using Given = std::string;
+  std::optional<OutwardChoice> FitSettings::*value;
+};
+
+/// Any texts.
+struct NamesOption {
+  using Given = std::vector<std::string>;
+  std::optional<std::vector<std::string>> FitSettings::*value;
+};
+
 /// As parse_window() reads it.
 struct WindowOption {
   using Given = std::string;
@@ -84,12 +96,14 @@ struct FlagOption {
 };
 
 using FitOptionKind =
-    std::variant<NumberOption, ChoiceOption<FitMode>, ChoiceOption<OutwardOption>, ChoiceOption<Unit>,
+    std::variant<NumberOption, ChoiceOption<FitMode>, OutwardKind, NamesOption, ChoiceOption<Unit>,
                  ChoiceOption<RegionPolicy>, ChoiceOption<EdgePolicy>, ChoiceOption<Loss>, ChoiceOption<DecisionRule>,
                  MpeOption, BoxesOption, WindowOption, LocksOption, AxisOption, PathOption, ColumnsOption, FlagOption>;
 
 [[nodiscard]] Failure set(const NumberOption& option, double given, FitSettings& settings);
 [[nodiscard]] Failure set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings);
+[[nodiscard]] Failure set(const OutwardKind& option, const std::string& given, FitSettings& settings);
+[[nodiscard]] Failure set(const NamesOption& option, const std::vector<std::string>& given, FitSettings& settings);
 [[nodiscard]] Failure set(const WindowOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const LocksOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const MpeOption& option, const std::string& given, FitSettings& settings);

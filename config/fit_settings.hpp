@@ -27,7 +27,9 @@ struct FitSettings {
   std::optional<double> ratio;                            ///< rest tolerance / leading-edge tolerance
   std::optional<double> transition;                       ///< width of the zone between them [patch parameter]
   std::optional<ParameterWindow> window;
-  std::optional<OutwardOption> outward;
+  std::optional<OutwardChoice> outward;
+  std::optional<std::vector<std::string>> face;  ///< faces of the design that are used; numbers, names, patterns
+  std::optional<bool> allow_missing;             ///< faces that cannot be read are left out
   std::optional<double> probe_radius;
   std::optional<Unit> units;
   std::optional<std::string> columns;  ///< of the points file, as check_point_columns() takes them

@@ -43,11 +43,13 @@ void FootFinder::track(const Vec6& x, LaneBlock& block) const {
   const LaneWalk* walk = block.feet.walk();
   if (walk == nullptr) return;
   const MotionFrame& frame = problem_.frame;
-  const LaneFrame lane_frame{{frame.pivot[0], frame.pivot[1], frame.pivot[2]},
-                             frame.length,
-                             {x[0], x[1], x[2], x[3], x[4], x[5]},
-                             static_cast<double>(problem_.surface.image().header().outward),
-                             problem_.config.probe_radius_mm};
+  LaneFrame lane_frame{{frame.pivot[0], frame.pivot[1], frame.pivot[2]},
+                       frame.length,
+                       {x[0], x[1], x[2], x[3], x[4], x[5]},
+                       problem_.config.probe_radius_mm,
+                       {}};
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane)
+    lane_frame.outward[lane] = problem_.surface.side_of(block.feet.place(lane).span);
   take_rows(*walk, lane_frame, block.rows);
 }
 

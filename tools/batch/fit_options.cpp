@@ -154,7 +154,10 @@ std::string start_file_of(const FitSettings& settings) {
   return start == kSearchStart ? "" : start;
 }
 
-OutwardOption outward_of(const FitSettings& settings) { return settings.outward.value_or(OutwardOption::automatic); }
+DesignChoice design_choice_of(const FitSettings& settings) {
+  return {settings.outward.value_or(OutwardOption::automatic), settings.face.value_or(std::vector<std::string>()),
+          settings.allow_missing.value_or(false)};
+}
 
 FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   FitPlan plan;
@@ -174,7 +177,7 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   const Vec3 box = Vec3(design.header().box_max) - Vec3(design.header().box_min);
   check_probe(plan, box.maxCoeff());
   check_sizes(settings, plan, box.maxCoeff());
-  check_outward(design, outward_of(settings));
+  check_outward(design, settings.outward.value_or(OutwardOption::automatic));
   for (std::uint32_t k = 0; k < map.box_count; ++k) plan.note += zone_warning(Surface(design), map.boxes.at(k));
   return plan;
 }

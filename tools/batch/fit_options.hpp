@@ -32,8 +32,8 @@ struct FitPlan {
 /// The file of start pairs; empty = none is given.
 [[nodiscard]] std::string start_file_of(const FitSettings& settings);
 
-/// Where the design's outward side comes from.
-[[nodiscard]] OutwardOption outward_of(const FitSettings& settings);
+/// Which faces of a design are used, and which side of them is away from the material.
+[[nodiscard]] DesignChoice design_choice_of(const FitSettings& settings);
 
 /// Turns the settings to a configuration in mm and checks it by check_config(). Throws ToolError (bad_input) that names
 /// the option and the fix.

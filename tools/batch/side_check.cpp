@@ -49,10 +49,10 @@ std::string wrong_directions(const DesignImage& design, const FitPlan& plan, con
       100 * *share);
 }
 
-void check_outward(const DesignImage& design, OutwardOption outward) {
-  if (outward == OutwardOption::automatic) return;
+void check_outward(const DesignImage& design, const OutwardChoice& outward) {
+  if (outward.all == OutwardOption::automatic) return;
   const std::optional<OutwardSide> shape = outward_side_of(Surface(design));
-  const bool plus = outward == OutwardOption::plus;
+  const bool plus = outward.all == OutwardOption::plus;
   if (!shape || (shape->sign > 0) == plus) return;
   throw ToolError(fmt::format("--outward {}: {}; leave it out, or say --outward {}", plus ? "+" : "-", shape->reason,
                               plus ? "-" : "+"));

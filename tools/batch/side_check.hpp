@@ -13,6 +13,6 @@ namespace bladefit {
                                            const std::vector<ProbePoint>& points, const Pose& pose);
 
 /// Throws ToolError where `outward` names the side that a closed shape has its material on. Cost: some milliseconds.
-void check_outward(const DesignImage& design, OutwardOption outward);
+void check_outward(const DesignImage& design, const OutwardChoice& outward);
 
 }  // namespace bladefit

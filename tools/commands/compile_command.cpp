@@ -1,14 +1,17 @@
 #include "tools/commands/compile_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/geometry/surface/design_image.hpp"
+#include "tools/commands/design_list.hpp"
 #include "tools/commands/design_notes.hpp"
 #include "tools/design/image/c_array.hpp"
 #include "tools/design/load_design.hpp"
@@ -20,25 +23,37 @@ namespace bladefit {
 namespace {
 
 struct CompileOptions {
-  std::string design, output, c_array;
-  std::string outward = "auto";
+  std::vector<std::string> designs, faces;
+  std::string output, c_array, outward = "auto";
+  bool list = false, allow_missing = false;
 };
 
-constexpr const char* kCompileDescription = "Compile the B-spline surfaces of an IGES or STEP file into a design image";
+constexpr const char* kCompileDescription = "Compile the faces of IGES or STEP files into a design image";
 
 constexpr const char* kCompileHelp = R"(
 The image (.bfd) is what the localizer works on: Bezier spans, bounding tree, checksum. It is read
 without parsing, from a file or from flash, and takes the place of the IGES or STEP file everywhere.
 All its lengths are mm; the unit of the design file (mm or inch) is kept for display.
 
+Faces: B-splines are taken as they are, planes, cylinders, cones, spheres, tori, extrusions and
+surfaces of revolution become B-splines exactly, offsets and degrees over 9 within 1e-6 of the size
+of the design; that is told. A face is cut at the (u, v) box of its trim; what a trim leaves out inside
+of the box is told. Patches have the numbers of the faces in the file (of faces named PATCH1, PATCH2,
+... of a STEP file those), 0 first, so that STEP and IGES of the same system agree. --list shows all.
+
 Outward side: which side of the surface is away from the material decides between cut and weld.
-  auto  found from the shape where sections close around the material; else you are asked
-  +     the side to which Su x Sv points
+  auto  found from the shape where sections close around the material, face by face where the file
+        does not say how they look; else from closed shells; else you are asked
+  +     the side to which the faces look: of Su x Sv, unless the file says that a face is reversed
   -     the other side
+  SUCTION*:+,3:-   a side for each face, by name, pattern or number
 
 Examples:
   bladefit compile fan.igs -o fan.bfd
   bladefit compile sheet.stp -o sheet.bfd --outward -
+  bladefit compile propeller.stp --list
+  bladefit compile propeller.stp -o blade.bfd --face "BLADE1*" --face 12
+  bladefit compile suction.igs pressure.igs -o blade.bfd
   bladefit compile fan.igs -o fan.bfd --c-array fan.c     (defines fan_design and fan_design_size)
 
 Exit codes: 0 done, 2 wrong use or bad design, 3 a file cannot be read or written.)";
@@ -51,8 +66,10 @@ std::string_view as_text(const std::vector<std::byte>& bytes) {
 void check_outputs(const CompileOptions& options) {
   if (options.output == "-" || options.c_array == "-")
     throw ToolError("-o -: a design is not written to standard output; name a file");
-  refuse_overwriting(options.output, "design", options.design);
-  refuse_overwriting(options.c_array, "design", options.design);
+  for (const std::string& design : options.designs) {
+    refuse_overwriting(options.output, "design", design);
+    refuse_overwriting(options.c_array, "design", design);
+  }
   if (same_file(options.output, options.c_array)) {
     throw ToolError(fmt::format("{}: is both -o and --c-array; give two names", options.output));
   }
@@ -61,7 +78,7 @@ void check_outputs(const CompileOptions& options) {
 void write_outputs(const CompileOptions& options, const std::vector<std::byte>& image) {
   OutputFile output(options.output, as_text(image));
   if (options.c_array.empty()) return output.commit();
-  const std::string origin = std::filesystem::path(options.design).filename().string();
+  const std::string origin = std::filesystem::path(options.designs.front()).filename().string();
   OutputFile array(options.c_array, c_array_source(image, c_array_name(options.c_array), origin));
   array.commit();
   output.commit();
@@ -90,14 +107,14 @@ void print_box(const ImageHeader& header) {
 DesignImage open_compiled(const CompileOptions& options, const LoadedDesign& design) {
   DesignImage image;
   if (const Status status = DesignImage::open(design.image, image); status != Status::ok) {
-    throw ToolError(fmt::format("{}: the compiled image is not valid ({}); please report this design", options.design,
-                                status_text(status)));
+    throw ToolError(fmt::format("{}: the compiled image is not valid ({}); please report this design",
+                                options.designs.front(), status_text(status)));
   }
   return image;
 }
 
 void print_summary(const CompileOptions& options, const LoadedDesign& design, const DesignImage& image) {
-  fmt::print("{} -> {} ({} bytes)\n", options.design, options.output, design.image.size());
+  fmt::print("{} -> {} ({} bytes)\n", fmt::join(options.designs, " "), options.output, design.image.size());
   if (!options.c_array.empty()) {
     fmt::print("  C array {} in {}\n", c_array_name(options.c_array), options.c_array);
   }
@@ -106,10 +123,19 @@ void print_summary(const CompileOptions& options, const LoadedDesign& design, co
   tell_notes(design, stdout, "  ");
 }
 
+std::vector<std::filesystem::path> paths_of(const CompileOptions& options) {
+  return {options.designs.begin(), options.designs.end()};
+}
+
 void compile(const CompileOptions& options) {
-  const OutwardOption outward = parse_outward(options.outward);
+  if (options.list) {
+    fmt::print("{}", design_list(paths_of(options)));
+    return;
+  }
+  if (options.output.empty()) throw ToolError("compile: no output is given; name it with -o, or say --list");
+  const DesignChoice choice(outward_choice(options.outward), options.faces, options.allow_missing);
   check_outputs(options);
-  const LoadedDesign design = load_design(options.design, outward);
+  const LoadedDesign design = load_design(paths_of(options), choice);
   const DesignImage image = open_compiled(options, design);
   write_outputs(options, design.image);
   print_summary(options, design, image);
@@ -121,14 +147,22 @@ void add_compile_command(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CompileOptions>();
   CLI::App* command = app.add_subcommand("compile", kCompileDescription);
   command->footer(kCompileHelp);
-  command->add_option("design", options->design, "IGES or STEP file (.igs .iges .stp .step), or an image (.bfd)")
+  command
+      ->add_option("design", options->designs,
+                   "IGES or STEP files (.igs .iges .stp .step .p21) of one blade, or an image (.bfd)")
       ->required()
       ->type_name("DESIGN");
-  command->add_option("-o,--output", options->output, "Design image to write")->required()->type_name("OUT.bfd");
+  command->add_option("-o,--output", options->output, "Design image to write")->type_name("OUT.bfd");
+  command->add_flag("--list", options->list, "Show the faces of the files and write nothing");
+  command
+      ->add_option("--face", options->faces, "Face to use: number in --list, name or pattern; repeat it (default all)")
+      ->type_name("NAME|N|GLOB")
+      ->allow_extra_args(false);
+  command->add_flag("--allow-missing", options->allow_missing, "Go on without faces that cannot be read");
   command->add_option("--c-array", options->c_array, "Also write the image as a C99 array, for flash")
       ->type_name("OUT.c");
   command->add_option("--outward", options->outward, "Side away from the material (default auto)")
-      ->type_name("+|-|auto");
+      ->type_name("+|-|auto|FACE:+,FACE:-");
   command->callback([options, &exit_code] {
     compile(*options);
     exit_code = 0;

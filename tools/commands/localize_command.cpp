@@ -92,7 +92,7 @@ int localize(const LocalizeFlags& flags) {
   }
   const FitSettings settings = merged(flags.fit, from_file);
   check_result_file(flags, settings);
-  const LoadedDesign loaded = load_design(flags.design, outward_of(settings));
+  const LoadedDesign loaded = load_design(flags.design, design_choice_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
     throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));

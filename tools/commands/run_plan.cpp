@@ -129,7 +129,7 @@ RunPlan plan_run(const RunFlags& flags) {
     throw ToolError("no design is given; name it with --design, or in the session file with --config");
   }
   RunPlan plan;
-  plan.design = load_design(*session.design, outward_of(session.fit));
+  plan.design = load_design(*session.design, design_choice_of(session.fit));
   if (const Status status = DesignImage::open(plan.design.image, plan.image); status != Status::ok) {
     throw ToolError(fmt::format("{}: {}", *session.design, status_text(status)));
   }

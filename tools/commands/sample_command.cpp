@@ -148,10 +148,10 @@ std::string points_text(const std::vector<ProbePoint>& points, bool directions, 
 void run_sample(const SampleFlags& flags) {
   refuse_overwriting(flags.output, "design", flags.design);
   // The side of the material plays a part only where something stands off the surface or looks at it.
-  const OutwardOption asked = parse_outward(flags.outward);
+  const OutwardChoice asked = outward_choice(flags.outward);
   const bool either = asked == OutwardOption::automatic && flags.offset == 0 && !flags.plan.directions;
   const bool stored = lower_extension(flags.design) == ".bfd";
-  const LoadedDesign loaded = load_design(flags.design, either && !stored ? OutwardOption::plus : asked);
+  const LoadedDesign loaded = load_design(flags.design, either && !stored ? OutwardChoice(OutwardOption::plus) : asked);
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok) {
     throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));

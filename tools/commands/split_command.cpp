@@ -121,9 +121,9 @@ UsedRows find_used_rows(const SplitFlags& flags, DesignUnit unit, const std::vec
   if (file.error) throw ToolError(file.error);
   for (const std::string& note : file.notes) fmt::print("{}\n", note);
   // Without directions the side of the material plays no part, so that a design that does not tell it will do.
-  const OutwardOption outward = parse_outward(flags.outward);
+  const OutwardChoice outward = outward_choice(flags.outward);
   const bool either = outward == OutwardOption::automatic && !file.has_approach;
-  const LoadedDesign loaded = load_design(flags.design, either ? OutwardOption::plus : outward);
+  const LoadedDesign loaded = load_design(flags.design, either ? OutwardChoice(OutwardOption::plus) : outward);
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok) {
     throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));

@@ -5,9 +5,11 @@
 #include <span>
 
 #include "core/geometry/surface/design_image.hpp"
+#include "tools/design/choose_sides.hpp"
+#include "tools/design/design_doubts.hpp"
+#include "tools/design/face_choice.hpp"
 #include "tools/design/image/image_writer.hpp"
-#include "tools/design/nurbs/outward_side.hpp"
-#include "tools/design/occ/face_trim.hpp"
+#include "tools/design/nurbs/length_unit.hpp"
 #include "tools/design/read_design.hpp"
 #include "tools/files/read_text.hpp"
 #include "tools/files/tool_error.hpp"
@@ -16,11 +18,17 @@ namespace bladefit {
 namespace {
 
 std::string side_note(int sign, const std::string& reason) {
-  return fmt::format("outward side: {} (Su x Sv {}): {}", sign > 0 ? "+" : "-", sign > 0 ? "as it is" : "reversed",
-                     reason);
+  return fmt::format("outward side: {} ({}): {}", sign > 0 ? "+" : "-",
+                     sign > 0 ? "to which the faces look" : "opposite to where the faces look", reason);
 }
 
-LoadedDesign load_image(const std::filesystem::path& path, OutwardOption outward) {
+LoadedDesign load_image(const std::filesystem::path& path, const DesignChoice& choice) {
+  if (!choice.faces.empty() || !choice.outward.faces.empty()) {
+    throw ToolError(
+        fmt::format("{}: a compiled design has no names of faces; choose faces and their sides when it is "
+                    "compiled",
+                    path.string()));
+  }
   const std::string bytes = read_text(path);
   LoadedDesign design;
   const auto content = std::as_bytes(std::span(bytes));
@@ -32,39 +40,68 @@ LoadedDesign load_image(const std::filesystem::path& path, OutwardOption outward
                     design.image.empty() ? "the file is empty: compile the design again" : status_text(status)));
   }
   const int stored = view.header().outward;
-  if (outward == OutwardOption::automatic) {
+  if (choice.outward.all == OutwardOption::automatic) {
     design.notes.push_back(side_note(stored, "as stored in the image"));
     return design;
   }
-  const int sign = outward == OutwardOption::plus ? 1 : -1;
+  const int sign = choice.outward.all == OutwardOption::plus ? 1 : -1;
   set_outward(design.image, sign);
   design.notes.push_back(
       side_note(sign, sign == stored ? "as asked and as stored" : "as asked; the image had the other one"));
   return design;
 }
 
-OutwardSide choose_side(const DesignFile& file, const std::string& name, OutwardOption outward) {
-  if (outward == OutwardOption::automatic) return find_outward_side(file.surfaces, name);
-  return {outward == OutwardOption::plus ? 1 : -1, "as asked"};
-}
-
 }  // namespace
 
-OutwardOption parse_outward(std::string_view text) {
-  for (std::size_t k = 0; k < kOutwardWords.size(); ++k) {
-    if (text == kOutwardWords[k]) return static_cast<OutwardOption>(k);
+OutwardChoice outward_choice(std::string_view text) {
+  OutwardChoice choice;
+  if (const Failure error = parse_outward(text, choice)) {
+    throw ToolError(fmt::format("--outward {}: {}", text, error.message));
   }
-  throw ToolError(fmt::format("--outward {}: unknown side; say +, - or auto", text));
+  return choice;
 }
 
-LoadedDesign load_design(const std::filesystem::path& path, OutwardOption outward) {
-  if (lower_extension(path) == ".bfd") return load_image(path, outward);
-  const DesignFile file = read_design(path);
-  const OutwardSide side = choose_side(file, path.string(), outward);
-  LoadedDesign design{write_image(file.surfaces, file.unit, side.sign), file.warnings,
-                      trim_warning(path.string(), file.trimmed)};
-  design.notes.push_back(side_note(side.sign, side.reason));
+DesignFile read_designs(const std::vector<std::filesystem::path>& paths) {
+  DesignFile design = read_design(paths.front());
+  for (std::size_t k = 1; k < paths.size(); ++k) {
+    DesignFile other = read_design(paths[k]);
+    if (other.unit != design.unit) {
+      throw ToolError(fmt::format("{}: is in {}, but {} in {}; export both in one unit", paths[k].string(),
+                                  unit_name(other.unit), paths.front().string(), unit_name(design.unit)));
+    }
+    const auto append = [](auto& to, auto& from) {
+      to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    };
+    append(design.surfaces, other.surfaces);
+    append(design.faces, other.faces);
+    append(design.warnings, other.warnings);
+    append(design.missing, other.missing);
+  }
   return design;
+}
+
+LoadedDesign load_design(const std::filesystem::path& path, const DesignChoice& choice) {
+  return load_design(std::vector{path}, choice);
+}
+
+LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const DesignChoice& choice) {
+  const std::string file = paths.front().string();
+  if (paths.size() == 1 && lower_extension(paths.front()) == ".bfd") return load_image(paths.front(), choice);
+  DesignFile design = read_designs(paths);
+  if (!choice.faces.empty()) {
+    keep_faces(design, choice.faces, file);
+  } else if (!choice.allow_missing) {
+    refuse_missing(design, file);
+  }
+  if (choice.faces.empty()) leave_trimmed_caps(design);
+  if (design.surfaces.empty()) throw ToolError(fmt::format("{}: no face that can be read is left", file));
+  const OutwardSide side = choose_sides(design, choice.outward, file);
+  LoadedDesign loaded{write_image(design.surfaces, design.unit, side.sign), design.warnings,
+                      trim_warning(design, file)};
+  const std::vector<std::string> doubts = design_doubts(design);
+  loaded.notes.insert(loaded.notes.end(), doubts.begin(), doubts.end());
+  loaded.notes.push_back(side_note(side.sign, side.reason));
+  return loaded;
 }
 
 }  // namespace bladefit

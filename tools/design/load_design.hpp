@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/outward_option.hpp"
+#include "tools/design/nurbs/design_file.hpp"
 
 namespace bladefit {
 
@@ -16,12 +17,30 @@ struct LoadedDesign {
   std::string warning;             ///< what may make verdicts wrong; one line, empty = nothing
 };
 
-/// The design image of `path`: IGES and STEP are compiled in memory, .bfd is read as it is and validated.
-/// With `outward` plus or minus a .bfd's side is turned to that. Throws ToolError as read_design does, for an image
-/// that is not valid, and where `outward` is automatic but the shape does not tell.
-LoadedDesign load_design(const std::filesystem::path& path, OutwardOption outward);
+/// What of a file is used, and how.
+struct DesignChoice {
+  DesignChoice(OutwardOption side) : outward(side) {}  // NOLINT: all faces, on one side
+  DesignChoice(OutwardChoice side = {}, std::vector<std::string> face_names = {}, bool missing = false)  // NOLINT
+      : outward(std::move(side)), faces(std::move(face_names)), allow_missing(missing) {}
 
-/// "+", "-" or "auto" as the command line spells them. Throws ToolError for anything else.
-OutwardOption parse_outward(std::string_view text);
+  OutwardChoice outward;
+  std::vector<std::string> faces;  ///< as faces_named() reads them; none = all
+  bool allow_missing = false;      ///< faces that cannot be read are left out
+};
+
+/// The faces of one blade from several CAD files; patches keep the order of the files. Throws ToolError as read_design
+/// does, and where the files are in different units.
+[[nodiscard]] DesignFile read_designs(const std::vector<std::filesystem::path>& paths);
+
+/// The design image of `path`: IGES and STEP are compiled in memory, .bfd is read as it is and validated.
+/// A .bfd's side is turned where one is asked for; it has no faces to choose. Throws ToolError as read_design does, for
+/// an image that is not valid, as faces_named() and choose_sides() do, and where faces cannot be read.
+LoadedDesign load_design(const std::filesystem::path& path, const DesignChoice& choice);
+
+/// The faces of one blade from several files, in this order; all other things as above. One file may be a .bfd.
+LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const DesignChoice& choice);
+
+/// As parse_outward() of the command line. Throws ToolError.
+OutwardChoice outward_choice(std::string_view text);
 
 }  // namespace bladefit

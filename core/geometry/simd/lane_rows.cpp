@@ -67,7 +67,7 @@ void take_rows(const LaneWalk& walk, const LaneFrame& frame, LaneRows& rows) {
   const Four sizes = dot(s_u, s_u) + dot(s_v, s_v);
   const Mask regular = dot(normal, normal) > 1e-24 * sizes * sizes;
   for (int k = 0; k < kLanes; ++k) rows.regular[k] = regular[k] != 0;
-  const Four3 outward = (Four{} + frame.outward) * normal;
+  const Four3 outward = load(frame.outward) * normal;
   const Four length = root(dot(outward, outward));
   const Four3 n{outward.x / length, outward.y / length, outward.z / length};
   const Four phi = dot(n, offset);

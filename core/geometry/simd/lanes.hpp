@@ -26,10 +26,10 @@ struct LaneWalk {
 /// What rows of a fit are about, of all lanes.
 struct LaneFrame {
   double pivot[3];
-  double length;        ///< pivot and length as in MotionFrame [mm]
-  double x[6];          ///< the motion at which rows are taken [mm]
-  double outward;       ///< +1 or -1
-  double probe_radius;  ///< [mm]
+  double length;                    ///< pivot and length as in MotionFrame [mm]
+  double x[6];                      ///< the motion at which rows are taken [mm]
+  double probe_radius;              ///< [mm]
+  alignas(32) LaneNumbers outward;  ///< of the lanes' patches: +1 or -1
 };
 
 /// Rows of converged lanes as distance_row() makes them, for interior feet.

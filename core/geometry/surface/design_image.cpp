@@ -52,7 +52,7 @@ bool patches_valid(const DesignImage& image) {
   for (const ImagePatch& p : image.patches()) {
     const bool degrees = p.degree_u >= 1 && p.degree_u <= kMaxDegree && p.degree_v >= 1 && p.degree_v <= kMaxDegree;
     const bool spans = p.spans_u >= 1 && p.spans_v >= 1 && p.first_span == next_span;
-    if (!degrees || !spans || p.rational > 1) return false;
+    if (!degrees || !spans || p.rational > 1 || p.reversed > 1 || p.spare != 0) return false;
     next_span += static_cast<std::uint64_t>(p.spans_u) * p.spans_v;
     if (next_span > image.spans().size()) return false;
     if (!breaks_valid(image.breaks(), p.first_break_u, p.spans_u)) return false;

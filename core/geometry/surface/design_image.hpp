@@ -15,7 +15,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 6;
+inline constexpr std::uint32_t kImageVersion = 7;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -27,7 +27,7 @@ struct ImageHeader {
   std::uint32_t crc32;        ///< CRC-32 (IEEE 802.3, as in zlib) over the whole image with this field as 0
   std::uint64_t total_size;   ///< bytes
   std::uint32_t design_unit;  ///< DesignUnit of the file it was compiled from; the numbers here are mm all the same
-  std::int32_t outward;       ///< +1 or -1: outward normal = outward * (Su x Sv)
+  std::int32_t outward;       ///< +1 or -1: outward normal = outward * (Su x Sv), of reversed patches minus that
   std::uint32_t patch_count, span_count, node_count, break_count;
   std::uint32_t leaf_count, spare;  ///< spare: 0
   std::uint64_t coefficient_count;  ///< doubles, of the control points and again of the Taylor forms
@@ -43,6 +43,8 @@ struct ImagePatch {
   std::uint32_t first_span;                    ///< span (iu, iv) is spans[first_span + iu * spans_v + iv]
   std::uint32_t first_break_u, first_break_v;  ///< spans_u + 1 (spans_v + 1) rising parameters, the first 0, the last 1
   std::uint32_t rational;                      ///< 0: every weight is 1
+  std::uint32_t reversed;                      ///< 1: the outward side is the other one than the header says
+  std::uint32_t spare;                         ///< 0
 };
 
 /// Sides of a span beyond which the surface ends or is not smooth: bits of ImageSpan::ends.
@@ -98,7 +100,7 @@ struct ImageNode {
   std::uint32_t child[4];
 };
 
-static_assert(sizeof(ImageHeader) == 168 && sizeof(ImagePatch) == 32 && sizeof(ImageSpan) == 88 &&
+static_assert(sizeof(ImageHeader) == 168 && sizeof(ImagePatch) == 40 && sizeof(ImageSpan) == 88 &&
               sizeof(ImageBounds) == 616 && sizeof(ImageLeaf) == 656 && sizeof(ImageNode) == 112);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.

@@ -50,7 +50,7 @@ SurfacePlace Surface::place_at(std::uint32_t patch, double u, double v) const {
 }
 
 Vec3 Surface::outward(const SurfacePlace& place, const SurfacePoint& point) const {
-  const auto side = static_cast<double>(image_.header().outward);
+  const double side = side_of(place.span);
   const Vec3 cross = point.s_u.cross(point.s_v);
   const double sizes = point.s_u.squaredNorm() + point.s_v.squaredNorm();
   if (cross.squaredNorm() > 1e-24 * sizes * sizes) return side * cross;

@@ -66,7 +66,7 @@ TEST(FitOptions, KeysAreDifferentAndHaveHelp) {
     EXPECT_GT(option.help.size(), 10U) << option.key;
     EXPECT_EQ(option.help.find("--"), std::string_view::npos) << option.key;
   }
-  EXPECT_EQ(keys.size(), 25U);
+  EXPECT_EQ(keys.size(), 27U);
   EXPECT_EQ(flag_of(option_of("leading_edge")), "--leading-edge");
 }
 
@@ -112,11 +112,21 @@ TEST(FitOptions, EveryWordIsTheEnumeratorOfItsPlace) {
   EXPECT_EQ(word_of(EdgePolicy::use), "use");
   EXPECT_EQ(word_of(RegionPolicy::fixed), "fixed");
   EXPECT_EQ(word_of(Unit::inch), "in");
-  const auto& outward = std::get<ChoiceOption<OutwardOption>>(option_of("outward").kind);
-  ASSERT_FALSE(set(outward, "-", settings));
-  EXPECT_EQ(settings.outward, OutwardOption::minus);
   EXPECT_EQ(set(modes, "best", settings).message,
             "'best' is none of: least_squares, minimax, range, min_tolerance, constrained");
+}
+
+TEST(FitOptions, OutwardIsASideOrASideForEachFace) {
+  const auto& outward = std::get<OutwardKind>(option_of("outward").kind);
+  FitSettings settings;
+  ASSERT_FALSE(set(outward, "-", settings));
+  EXPECT_EQ(settings.outward, OutwardChoice(OutwardOption::minus));
+  ASSERT_FALSE(set(outward, "SUCTION*:+,3:-", settings));
+  EXPECT_EQ(settings.outward->faces, (std::vector<FaceSide>{{"SUCTION*", true}, {"3", false}}));
+  for (const char* wrong : {"", "up", ":+", "3:", "3:+,", "3:+,4", "3:++"}) {
+    const bool refused = static_cast<bool>(set(outward, wrong, settings));
+    EXPECT_EQ(refused, std::string(wrong) != "3:+,") << wrong;
+  }
 }
 
 TEST(FitOptions, FlagsWinOverTheFile) {

@@ -56,11 +56,12 @@ class Lanes : public ::testing::TestWithParam<std::string> {
     LaneProjections feet;
     for (const Task& task : tasks) feet.enter(surface_, task.r, task.start);
     feet.find(surface_);
-    const LaneFrame frame{{frame_.pivot[0], frame_.pivot[1], frame_.pivot[2]},
-                          frame_.length,
-                          {x_[0], x_[1], x_[2], x_[3], x_[4], x_[5]},
-                          static_cast<double>(surface_.image().header().outward),
-                          kRadius};
+    LaneFrame frame{{frame_.pivot[0], frame_.pivot[1], frame_.pivot[2]},
+                    frame_.length,
+                    {x_[0], x_[1], x_[2], x_[3], x_[4], x_[5]},
+                    kRadius,
+                    {}};
+    std::fill_n(frame.outward, kLanes, static_cast<double>(surface_.image().header().outward));
     take_rows(*feet.walk(), frame, rows);
     return feet;
   }

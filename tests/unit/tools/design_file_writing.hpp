@@ -102,12 +102,30 @@ inline constexpr const char* kStepMillimetre =
     "#2=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n"
     "#1=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNIT_ASSIGNED_CONTEXT((#2))REPRESENTATION_CONTEXT('',''));\n";
 
+/// Statements that make the faces among `statements` the shape of a product, as CAD systems write it.
+inline std::string step_product(const std::string& statements) {
+  std::string faces;
+  for (std::size_t at = statements.find("=ADVANCED_FACE"); at != std::string::npos;
+       at = statements.find("=ADVANCED_FACE", at + 1)) {
+    const std::size_t number = statements.rfind('#', at);
+    faces += (faces.empty() ? "" : ",") + statements.substr(number, at - number);
+  }
+  if (faces.empty()) return {};
+  return fmt::format(
+      "#20=APPLICATION_CONTEXT('automotive design');\n#21=PRODUCT_CONTEXT('',#20,'mechanical');\n"
+      "#22=PRODUCT('blade','blade','',(#21));\n#23=PRODUCT_DEFINITION_FORMATION('','',#22);\n"
+      "#24=PRODUCT_DEFINITION_CONTEXT('part definition',#20,'design');\n#25=PRODUCT_DEFINITION('','',#23,#24);\n"
+      "#26=PRODUCT_DEFINITION_SHAPE('','',#25);\n#27=OPEN_SHELL('',({}));\n#28=SHELL_BASED_SURFACE_MODEL('',(#27));\n"
+      "#29=MANIFOLD_SURFACE_SHAPE_REPRESENTATION('',(#28),#1);\n#30=SHAPE_DEFINITION_REPRESENTATION(#26,#29);\n",
+      faces);
+}
+
 /// A whole STEP file of these statements. Numbers from 100 on are free for surfaces.
 inline std::string step_file(const std::string& statements, const std::string& units = kStepMillimetre) {
   return "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\n"
          "FILE_NAME('test.stp','2024-01-01T00:00:00',(''),(''),'','','');\n"
          "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));\nENDSEC;\nDATA;\n" +
-         units + statements + "ENDSEC;\nEND-ISO-10303-21;\n";
+         units + statements + step_product(statements) + "ENDSEC;\nEND-ISO-10303-21;\n";
 }
 
 }  // namespace bladefit::testing

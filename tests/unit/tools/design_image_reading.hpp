@@ -70,7 +70,8 @@ inline int check_cones(const DesignImage& image, int grid) {
     for (int i = 0; i <= grid; ++i) {
       for (int j = 0; j <= grid; ++j) {
         const SpanPoint point = evaluate_span(image, span, double(i) / grid, double(j) / grid);
-        const Eigen::Vector3d normal = point.along_u.cross(point.along_v).normalized() * image.header().outward;
+        const int side = image.patches()[span.patch].reversed != 0 ? -image.header().outward : image.header().outward;
+        const Eigen::Vector3d normal = point.along_u.cross(point.along_v).normalized() * side;
         EXPECT_GE(normal.dot(Eigen::Vector3d(span.cone_axis)), span.cone_cosine)
             << "patch " << span.patch << " span " << span.iu << ", " << span.iv << " at " << i << ", " << j;
       }

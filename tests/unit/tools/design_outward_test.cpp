@@ -6,8 +6,8 @@
 
 #include "tests/unit/tools/design_file_writing.hpp"
 #include "tests/unit/tools/design_fixtures.hpp"
+#include "tools/design/choose_sides.hpp"
 #include "tools/design/load_design.hpp"
-#include "tools/design/nurbs/outward_side.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -49,11 +49,34 @@ Shape reversed(const Shape& shape) {
   return [=](double u, double v) { return shape(1 - u, v); };
 }
 
-int side_of(const std::vector<NurbsSurface>& surfaces) { return find_outward_side(surfaces, "test").sign; }
+/// Faces named F0, F1, ...; with `told` the file says to which side they look.
+DesignFile design_of(const std::vector<NurbsSurface>& surfaces, bool told = false) {
+  DesignFile design;
+  design.surfaces = surfaces;
+  design.faces.resize(surfaces.size());
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    design.faces[k].name = fmt::format("F{}", k);
+    design.faces[k].told = told;
+  }
+  return design;
+}
 
-std::string refusal_of(const std::vector<NurbsSurface>& surfaces) {
+int side_of(const std::vector<NurbsSurface>& surfaces, const OutwardChoice& asked = {}) {
+  DesignFile design = design_of(surfaces);
+  return choose_sides(design, asked, "test").sign;
+}
+
+/// The outward side of every surface, +1 that of Su x Sv.
+std::vector<int> sides_of(DesignFile design, const OutwardChoice& asked = {}) {
+  const int sign = choose_sides(design, asked, "test").sign;
+  std::vector<int> sides;
+  for (const NurbsSurface& surface : design.surfaces) sides.push_back(surface.reversed ? -sign : sign);
+  return sides;
+}
+
+std::string refusal_of(DesignFile design, const OutwardChoice& asked = {}) {
   try {
-    side_of(surfaces);
+    choose_sides(design, asked, "test");
   } catch (const ToolError& error) {
     return error.what();
   }
@@ -84,14 +107,44 @@ TEST(DesignOutward, DoesNotDependOnPlaceAndUnit) {
 TEST(DesignOutward, OpenSheetsAreRefused) {
   const std::string wanted = "say --outward +";
   const NurbsSurface flat = testing::random_surface({3, 8}, {3, 8}, false, 2);
-  EXPECT_NE(refusal_of({flat}).find(wanted), std::string::npos);
-  EXPECT_NE(refusal_of({sheet(blade(0, 0.5, 0.1))}).find(wanted), std::string::npos);
-  EXPECT_NE(refusal_of({sheet(blade(0.2, 0.3, 1.0))}).find(wanted), std::string::npos);
+  EXPECT_NE(refusal_of(design_of({flat})).find(wanted), std::string::npos);
+  EXPECT_NE(refusal_of(design_of({sheet(blade(0, 0.5, 0.1))})).find(wanted), std::string::npos);
+  EXPECT_NE(refusal_of(design_of({sheet(blade(0.2, 0.3, 1.0))})).find(wanted), std::string::npos);
 }
 
-TEST(DesignOutward, PatchesThatContradictEachOtherAreRefused) {
-  const std::string message = refusal_of({sheet(blade(0, 0.5, 0.1)), sheet(reversed(blade(0.5, 1, 0.1)))});
+std::vector<NurbsSurface> one_reversed() { return {sheet(blade(0, 0.5, 0.1)), sheet(reversed(blade(0.5, 1, 0.1)))}; }
+
+TEST(DesignOutward, LooseFacesAreTurnedAsTheShapeTells) {
+  EXPECT_EQ(sides_of(design_of(one_reversed())), (std::vector<int>{1, -1}));
+  EXPECT_EQ(sides_of(design_of({sheet(reversed(blade(0.01, 0.4, 0.05))), sheet(blade(0.4, 0.6, 0.05)),
+                                sheet(blade(0.6, 0.99, 0.05))})),
+            (std::vector<int>{-1, 1, 1}));
+}
+
+TEST(DesignOutward, SidesOfTheFileAreFollowedOrTheContradictionIsToldNeverTurned) {
+  DesignFile good = design_of(one_reversed(), true);
+  good.surfaces[1].reversed = true;
+  EXPECT_EQ(sides_of(good), (std::vector<int>{1, -1}));
+  const std::string message = refusal_of(design_of(one_reversed(), true));
   EXPECT_NE(message.find("do not all point to the same side"), std::string::npos) << message;
+  EXPECT_NE(message.find("--outward"), std::string::npos) << message;
+}
+
+TEST(DesignOutward, OneSideForFacesThatContradictEachOtherIsRefused) {
+  const std::string message = refusal_of(design_of(one_reversed()), OutwardOption::plus);
+  EXPECT_NE(message.find("by the shape patch 1 (F1) looks the other way"), std::string::npos) << message;
+}
+
+TEST(DesignOutward, SidesAreGivenFaceByFace) {
+  OutwardChoice list;
+  list.faces = {{"F1", true}, {"0", false}};
+  EXPECT_EQ(sides_of(design_of(one_reversed()), list), (std::vector<int>{-1, 1}));
+  list.faces = {{"F1", false}};
+  EXPECT_EQ(sides_of(design_of(one_reversed()), list), (std::vector<int>{1, -1}));
+  list.faces = {{"F0", true}, {"*", false}};
+  EXPECT_EQ(sides_of(design_of(one_reversed()), list), (std::vector<int>{1, -1}));
+  list.faces = {{"TIP", true}};
+  EXPECT_NE(refusal_of(design_of(one_reversed()), list).find("no face is called \"TIP\""), std::string::npos);
 }
 
 TEST(DesignOutward, TheSideAskedForIsTaken) {
@@ -99,10 +152,8 @@ TEST(DesignOutward, TheSideAskedForIsTaken) {
   const auto path = folder.write("a.igs", testing::iges_file({testing::iges_surface(sheet(blade(0, 0.5, 0.1)))}));
   EXPECT_THROW(load_design(path, OutwardOption::automatic), ToolError);
   EXPECT_NO_THROW(load_design(path, OutwardOption::minus));
-  EXPECT_EQ(parse_outward("+"), OutwardOption::plus);
-  EXPECT_EQ(parse_outward("-"), OutwardOption::minus);
-  EXPECT_EQ(parse_outward("auto"), OutwardOption::automatic);
-  EXPECT_THROW(parse_outward("out"), ToolError);
+  EXPECT_EQ(outward_choice("auto"), OutwardChoice(OutwardOption::automatic));
+  EXPECT_THROW(outward_choice("out"), ToolError);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(FitFlags, ValuesArriveParsed) {
   EXPECT_EQ(flags.leading_edge->at(1).patch, 1U);
   EXPECT_EQ(flags.tolerance, 2);
   EXPECT_EQ(flags.units, Unit::inch);
-  EXPECT_EQ(outward_of(flags), OutwardOption::minus);
+  EXPECT_EQ(design_choice_of(flags).outward, OutwardChoice(OutwardOption::minus));
   EXPECT_EQ(flags.lock, 33);
   EXPECT_EQ(flags.window->high, 0.9);
   EXPECT_EQ(flags.start, "pairs.csv");

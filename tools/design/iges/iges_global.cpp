@@ -9,12 +9,13 @@
 #include <optional>
 
 #include "drivers/text/units.hpp"
+#include "tools/design/iges/iges_writer.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kScaleField = 13, kUnitFlagField = 14, kUnitNameField = 15;
+constexpr std::size_t kScaleField = 13, kUnitFlagField = 14, kUnitNameField = 15, kResolutionField = 19;
 
 /// Units of IGES 5.3, section 2.2.4.3.14; the flag is the place in the table, counted from 1.
 struct IgesUnit {
@@ -75,7 +76,7 @@ class FieldReader {
 
 struct GlobalFields {
   IgesDelimiters delimiters;
-  std::array<std::string, kUnitNameField + 1> fields;  ///< fields[k] is field k, from 3 on
+  std::array<std::string, kResolutionField + 1> fields;  ///< fields[k] is field k, from 3 on
 };
 
 /// The first two fields define the delimiters of themselves and of all others; left out they are "," and ";".
@@ -146,6 +147,11 @@ IgesGlobal read_iges_global(const std::vector<std::string_view>& records, const 
   IgesGlobal global;
   global.delimiters = fields.delimiters;
   global.unit = read_unit(fields.fields[kUnitFlagField], fields.fields[kUnitNameField], global, file);
+  const auto flag = std::ranges::find(kUnits, global.unit.mm, &IgesUnit::mm);
+  global.unit_flag = static_cast<int>(flag - kUnits.begin()) + 1;
+  if (const auto resolution = parse_iges_real(fields.fields[kResolutionField]); resolution && *resolution > 0) {
+    global.resolution = iges_real(*resolution);
+  }
   global.model_scale = read_scale(fields.fields[kScaleField], file);
   if (const std::string note = shown_unit_note(global.unit); !note.empty()) global.warnings.push_back(note);
   if (global.model_scale != 1.0) {

@@ -13,7 +13,9 @@ namespace bladefit {
 struct IgesGlobal {
   IgesDelimiters delimiters;
   LengthUnit unit{1.0, "millimetre"};
+  int unit_flag = 2;       ///< of `unit`, as in field 14
   double model_scale = 1;  ///< coordinates are real lengths times this
+  std::string resolution;  ///< field 19: least distance of points that differ, in the unit of the file; may be empty
   std::vector<std::string> warnings;
 };
 

@@ -1,113 +1,180 @@
 #include "tools/design/iges/iges_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Static.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Shape.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
-#include "tools/design/iges/iges_global.hpp"
-#include "tools/design/iges/iges_surface.hpp"
-#include "tools/design/iges/iges_text.hpp"
+#include "tools/design/text/design_text.hpp"
+#include "tools/design/iges/iges_clean.hpp"
 #include "tools/design/occ/cad_session.hpp"
-#include "tools/design/occ/face_trim.hpp"
-#include "tools/files/read_text.hpp"
+#include "tools/design/occ/design_faces.hpp"
+#include "tools/design/occ/memory_file.hpp"
+#include "tools/design/occ/transferred_faces.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
 
-/// A matrix may have a matrix of its own; more than this are a circle.
-constexpr int kMaxMatrices = 8;
-/// How far the columns of a matrix may be from orthonormal, as printed numbers are, without a warning.
-constexpr double kOrthonormal = 1e-6;
+/// Surfaces, bounded surfaces and faces.
+constexpr std::array<int, 16> kSurfaceTypes = {108, 114, 118, 120, 122, 128, 140, 143,
+                                               144, 190, 192, 194, 196, 198, 510, 182};
+/// What the status digits of an entity say.
+constexpr int kPhysicallyDependent = 1, kBothDependent = 3, kGeometry = 0, kDefinition = 2, kLogical = 4;
+constexpr int kNameProperty = 406, kNameForm = 15;
 
-/// Entities that place copies of others, and entities that bound a surface.
-constexpr int kInstanceTypes[] = {408, 412, 414, 430};
-constexpr int kBoundedTypes[] = {143, 144, 510};
+bool is_surface(int type) { return std::ranges::find(kSurfaceTypes, type) != kSurfaceTypes.end(); }
 
-std::string list_types(const std::map<int, int>& counts) {
-  std::string list;
-  for (const auto& [type, count] : counts) list += fmt::format("{}{} x {}", list.empty() ? "" : ", ", count, type);
-  return list.empty() ? "none" : list;
+int status_digit(const IgesEntity& entity, std::size_t pair) {
+  return 10 * (entity.status[2 * pair] - '0') + (entity.status[2 * pair + 1] - '0');
+}
+bool is_blank(const IgesEntity& entity) { return status_digit(entity, 0) != 0; }
+/// It is drawn for itself, not as a part of another entity.
+bool is_independent(const IgesEntity& entity) {
+  const int dependence = status_digit(entity, 1);
+  return dependence != kPhysicallyDependent && dependence != kBothDependent;
+}
+bool is_shape(const IgesEntity& entity) {
+  const int use = status_digit(entity, 2);
+  return use == kGeometry || use == kDefinition || use == kLogical;
 }
 
-/// Refuses what would stand somewhere else than its coordinates say, and tells what is used otherwise than drawn.
-void check_types(const IgesText& text, DesignFile& design, const std::string& file) {
+/// What is left out on purpose: hidden surfaces, construction geometry and annotation.
+bool is_left_out(const IgesEntity& entity) { return is_independent(entity) && (is_blank(entity) || !is_shape(entity)); }
+
+/// The entity to which a parameter refers; nothing where it is no reference.
+const IgesEntity* target_of(const CleanIges& iges, const IgesParameters& parameters, std::size_t place) {
+  const std::optional<double> number = parse_iges_real(parameters.text(place));
+  if (!number || !(*number >= 1) || *number > 2.0 * static_cast<double>(iges.entities.size())) return nullptr;
+  return &iges.entities[static_cast<std::size_t>(*number) / 2];
+}
+
+/// The name that a property (entity 406, form 15) gives; properties stand at the end of the parameters.
+std::string property_name(const CleanIges& iges, const IgesParameters& parameters) {
+  for (std::size_t place = parameters.size(); place-- > 1;) {
+    const IgesEntity* property = target_of(iges, parameters, place);
+    if (property == nullptr || property->type != kNameProperty) return {};
+    const auto index = static_cast<std::size_t>(property - iges.entities.data());
+    if (property->form == kNameForm) return iges.parameters[index].string(2).value_or("");
+  }
+  return {};
+}
+
+/// Its own name or label, else that of the surface that it bounds.
+std::string name_of(const CleanIges& iges, std::size_t index) {
+  const IgesEntity& entity = iges.entities[index];
+  std::string name = property_name(iges, iges.parameters[index]);
+  if (name.empty()) name = entity.label;
+  if (!name.empty() || entity.type == 128 || !is_surface(entity.type) || iges.parameters[index].size() < 3) return name;
+  const IgesEntity* surface = target_of(iges, iges.parameters[index], entity.type == 143 ? 2 : 1);
+  if (surface == nullptr || !is_surface(surface->type)) return {};
+  return name_of(iges, static_cast<std::size_t>(surface - iges.entities.data()));
+}
+
+std::string list_types(const CleanIges& iges) {
   std::map<int, int> counts;
-  for (const IgesEntity& entity : text.entities) ++counts[entity.type];
-  if (counts.count(kIgesSurfaceType) == 0) {
-    throw ToolError(
-        fmt::format("{}: no B-spline surface (entity 128) in the file; entity types there: {}; export the "
-                    "blade as B-spline surfaces",
-                    file, list_types(counts)));
+  for (const IgesEntity& entity : iges.entities) ++counts[entity.type];
+  std::vector<std::string> list;
+  for (const auto& [type, count] : counts) list.push_back(fmt::format("{} x {}", count, type));
+  return list.empty() ? "none" : fmt::format("{}", fmt::join(list, ", ")).substr(0, 120);
+}
+
+void name_faces(const CleanIges& iges, const IGESData_IGESModel& model, const FaceSources& sources, CadFaces& read) {
+  std::vector<CadFace> shown;
+  for (CadFace& face : read.faces) {
+    const auto source = sources.find(key_of(face.face));
+    const auto entity = Handle(IGESData_IGESEntity)::DownCast(source == sources.end() ? nullptr : source->second);
+    if (entity.IsNull()) {
+      face.entity = "face";
+      face.order = std::numeric_limits<int>::max();
+    } else {
+      face.order = model.DNum(entity);
+      const auto index = static_cast<std::size_t>(face.order) / 2;
+      if (is_left_out(iges.entities[index])) continue;
+      face.entity = fmt::format("entity {} at D{}", entity->TypeNumber(), face.order);
+      face.name = name_of(iges, index);
+      face.layer = iges.entities[index].level > 0 ? fmt::format("{}", iges.entities[index].level) : "";
+    }
+    shown.push_back(std::move(face));
   }
-  for (const int type : kInstanceTypes) {
-    if (counts.count(type) == 0) continue;
-    throw ToolError(
-        fmt::format("{}: entity {} places copies of other entities, which is not supported; export the "
-                    "blade alone, without instances",
-                    file, type));
+  read.faces = std::move(shown);
+  std::ranges::stable_sort(read.faces, {}, &CadFace::order);
+}
+
+/// Surfaces of the file of which the transfer made nothing, and what was left out.
+void note_absent(const CleanIges& iges, IGESControl_Reader& reader, CadFaces& read) {
+  std::size_t left_out = 0;
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  for (std::size_t k = 0; k < iges.entities.size(); ++k) {
+    const IgesEntity& entity = iges.entities[k];
+    if (!is_surface(entity.type) || !is_independent(entity)) continue;
+    if (is_left_out(entity)) {
+      ++left_out;
+      continue;
+    }
+    const Handle(IGESData_IGESEntity) source = reader.IGESModel()->Entity(static_cast<int>(k + 1));
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, source);
+    if (!shape.IsNull() && TopExp_Explorer(shape, TopAbs_FACE).More()) continue;
+    const std::string name = name_of(iges, k);
+    read.unread.push_back(fmt::format("entity {} at D{}{}: the CAD library makes no face of it", entity.type, 2 * k + 1,
+                                      name.empty() ? "" : fmt::format(" ({})", name)));
   }
-  const auto occurs = [&counts](int type) { return counts.count(type) > 0; };
-  if (std::ranges::any_of(kBoundedTypes, occurs)) {
-    design.trimmed = with_cad_library(file, [&file] { return trimmed_iges_faces(file); });
+  if (left_out > 0) {
+    read.notes.push_back(fmt::format("{} hidden or construction surfaces are left out", left_out));
   }
 }
 
-/// The motion of `entity`: its matrix, then that of the matrix, and so on.
-Eigen::Affine3d read_motion(const IgesText& text, const IgesEntity& entity, const IgesDelimiters& delimiters,
-                            DesignFile& design, const std::string& file) {
-  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-  int number = entity.matrix;
-  for (int count = 0; number != 0; ++count) {
-    const std::size_t place = static_cast<std::size_t>(number) / 2;
-    const bool exists = number > 0 && number % 2 == 1 && place < text.entities.size();
-    if (!exists || text.entities[place].type != kIgesMatrixType || count == kMaxMatrices) {
-      throw ToolError(
-          fmt::format("{}: entity 128 at D{}: its transformation matrix D{} is not an entity 124; export "
-                      "the design again",
-                      file, entity.directory_number, number));
-    }
-    const Eigen::Affine3d matrix = read_iges_matrix(IgesParameters(text.entities[place], delimiters, file));
-    const Eigen::Matrix3d product = matrix.linear() * matrix.linear().transpose();
-    if ((product - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > kOrthonormal) {
-      design.warnings.push_back(fmt::format("the matrix at D{} is not a rotation; it is used as it stands", number));
-    }
-    motion = matrix * motion;
-    number = text.entities[place].matrix;
+CadFaces read_faces(const CleanIges& iges, const std::string& file) {
+  const MemoryFile copy(iges.text);
+  IGESControl_Reader reader;
+  Interface_Static::SetIVal("read.iges.bspline.continuity", 0);  // a crease is no reason to cut a surface
+  reader.SetReadVisible(true);
+  if (reader.ReadFile(copy.path().c_str()) != IFSelect_RetDone) {
+    throw ToolError(fmt::format("{}: the CAD library cannot read the file; export the design again", file));
   }
-  return motion;
-}
-
-NurbsSurface read_surface(const IgesText& text, const IgesEntity& entity, const IgesGlobal& global, DesignFile& design,
-                          const std::string& file) {
-  NurbsSurface surface = read_iges_surface(IgesParameters(entity, global.delimiters, file));
-  surface.name = fmt::format("entity 128 at D{}", entity.directory_number);
-  if (!entity.label.empty()) surface.name += fmt::format(" ({})", entity.label);
-  if (entity.matrix != 0) {
-    const Eigen::Affine3d motion = read_motion(text, entity, global.delimiters, design, file);
-    for (Eigen::Vector3d& point : surface.control_points) point = motion * point;
+  reader.TransferRoots();
+  CadFaces read;
+  if (const TopoDS_Shape shape = reader.OneShape(); !shape.IsNull()) read.faces = faces_of(shape);
+  name_faces(iges, *reader.IGESModel(), face_sources(reader.WS()), read);
+  note_absent(iges, reader, read);
+  if (read.faces.empty() && read.unread.empty()) {
+    throw ToolError(fmt::format(
+        "{}: no visible surface in the file{}; entity types there: {}; export the blade as surfaces or as a "
+        "solid, not hidden",
+        file, read.notes.empty() ? "" : " (" + read.notes.front() + ")", list_types(iges)));
   }
-  const double mm = global.unit.mm / global.model_scale;
-  for (Eigen::Vector3d& point : surface.control_points) point *= mm;
-  return surface;
+  return read;
 }
 
 }  // namespace
 
 DesignFile read_iges(const std::filesystem::path& path) {
   const std::string file = path.string();
-  const std::string content = read_text(path);
-  const IgesText text = split_iges_text(content, file);
-  const IgesGlobal global = read_iges_global(text.global, file);
+  const std::string content = read_design_text(path);
+  const CleanIges iges = clean_iges_text(content, file);
   DesignFile design;
-  design.unit = shown_unit(global.unit);
-  design.warnings = global.warnings;
-  check_types(text, design, file);
-  for (const IgesEntity& entity : text.entities) {
-    if (entity.type != kIgesSurfaceType) continue;
-    design.surfaces.push_back(read_surface(text, entity, global, design, file));
+  design.unit = shown_unit(iges.global.unit);
+  design.warnings = iges.warnings;
+  with_cad_library(file, [&] {
+    append_surfaces(read_faces(iges, file), design);
+    return 0;
+  });
+  const double scale = iges.global.model_scale;
+  for (NurbsSurface& surface : design.surfaces) {
+    for (Eigen::Vector3d& point : surface.control_points) point /= scale;
   }
+  for (DesignFace& face : design.faces) face.area /= scale * scale;
   return design;
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/geometry/surface/design_image.hpp"
-
 namespace bladefit {
 namespace {
 
@@ -32,24 +30,42 @@ void read_knots(Cursor& cursor, SurfaceDirection& direction) {
   for (double& knot : direction.knots) knot = cursor.next();
 }
 
+[[noreturn]] void fail_count(const IgesParameters& parameters, const NurbsSurface& surface, std::size_t needed) {
+  parameters.fail(
+      fmt::format("{} parameters, but {} x {} control points of degree {} x {} need {} and U0, U1, V0, V1: number of "
+                  "knots or control "
+                  "points not matching",
+                  parameters.size(), surface.u.control_points, surface.v.control_points, surface.u.degree,
+                  surface.v.degree, needed));
+}
+
+/// U0 and U1, or V0 and V1.
+void read_range(const IgesParameters& parameters, std::size_t place, char letter, SurfaceDirection& direction,
+                std::vector<std::string>& notes) {
+  const auto value = [&](std::size_t index) {
+    return index < parameters.size() && !parameters.text(index).empty() ? parameters.real(index) : 0.0;
+  };
+  direction.start = value(place);
+  direction.end = value(place + 1);
+  if (direction.start != 0 || direction.end != 0) return;
+  direction.start = direction.knots[static_cast<std::size_t>(direction.degree)];
+  direction.end = direction.knots[static_cast<std::size_t>(direction.control_points)];
+  notes.push_back(fmt::format("its parameter range {0}0, {0}1 is missing; that of the knots, {1} to {2}, is taken",
+                              letter == 'u' ? 'U' : 'V', direction.start, direction.end));
+}
+
 }  // namespace
 
-NurbsSurface read_iges_surface(const IgesParameters& parameters) {
+NurbsSurface read_iges_surface(const IgesParameters& parameters, std::vector<std::string>& notes) {
   NurbsSurface surface;
   surface.u.control_points = parameters.integer(1, "upper index K1 in u", 1, kMaxIndex) + 1;
   surface.v.control_points = parameters.integer(2, "upper index K2 in v", 1, kMaxIndex) + 1;
-  surface.u.degree = parameters.integer(3, "degree M1 in u", 1, static_cast<int>(kMaxDegree));
-  surface.v.degree = parameters.integer(4, "degree M2 in v", 1, static_cast<int>(kMaxDegree));
+  surface.u.degree = parameters.integer(3, "degree M1 in u", 1, kHighestIgesDegree);
+  surface.v.degree = parameters.integer(4, "degree M2 in v", 1, kHighestIgesDegree);
   const std::size_t points =
       static_cast<std::size_t>(surface.u.control_points) * static_cast<std::size_t>(surface.v.control_points);
-  const std::size_t needed = kHeadFields + knot_count(surface.u) + knot_count(surface.v) + 4 * points + kRangeFields;
-  if (parameters.size() < needed) {
-    parameters.fail(
-        fmt::format("{} parameters, but {} x {} control points of degree {} x {} need {}: number of knots "
-                    "or control points not matching",
-                    parameters.size(), surface.u.control_points, surface.v.control_points, surface.u.degree,
-                    surface.v.degree, needed));
-  }
+  const std::size_t needed = kHeadFields + knot_count(surface.u) + knot_count(surface.v) + 4 * points;
+  if (parameters.size() < needed) fail_count(parameters, surface, needed);
   surface.weights.resize(points);
   surface.control_points.resize(points);
   Cursor cursor(parameters, kHeadFields);
@@ -59,21 +75,14 @@ NurbsSurface read_iges_surface(const IgesParameters& parameters) {
   iges_order(surface, [&](std::size_t k) {
     for (double& coordinate : surface.control_points[k]) coordinate = cursor.next();
   });
-  surface.u.start = cursor.next();
-  surface.u.end = cursor.next();
-  surface.v.start = cursor.next();
-  surface.v.end = cursor.next();
-  return surface;
-}
-
-Eigen::Affine3d read_iges_matrix(const IgesParameters& parameters) {
-  if (parameters.size() < 13) parameters.fail(fmt::format("{} parameters where a matrix needs 13", parameters.size()));
-  Cursor cursor(parameters, 1);
-  Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) matrix(row, column) = cursor.next();
+  if (parameters.size() < needed + kRangeFields) {
+    for (std::size_t k = needed; k < parameters.size(); ++k) {
+      if (!parameters.text(k).empty() && parameters.real(k) != 0) fail_count(parameters, surface, needed);
+    }
   }
-  return matrix;
+  read_range(parameters, needed, 'u', surface.u, notes);
+  read_range(parameters, needed + 2, 'v', surface.v, notes);
+  return surface;
 }
 
 }  // namespace bladefit

@@ -1,5 +1,6 @@
 #pragma once
-#include <Eigen/Geometry>
+#include <string>
+#include <vector>
 
 #include "tools/design/iges/iges_parameters.hpp"
 #include "tools/design/nurbs/nurbs_surface.hpp"
@@ -7,7 +8,8 @@
 namespace bladefit {
 
 inline constexpr int kIgesSurfaceType = 128;
-inline constexpr int kIgesMatrixType = 124;
+/// The library makes no surface of a higher degree.
+inline constexpr int kHighestIgesDegree = 25;
 
 /// Calls `visit(k)` for each control point number k of `surface` in the order of IGES, where the first index is the
 /// fastest.
@@ -22,10 +24,8 @@ void iges_order(const NurbsSurface& surface, Visit visit) {
 
 /// Entity 128 (rational B-spline surface, IGES 5.3, section 4.24) as it stands, in the units of the file. Throws
 /// ToolError for parameters that are missing, too few for the counts, or not numbers. The weights are those of the
-/// file whatever its "polynomial" flag says. The surface is not otherwise checked.
-NurbsSurface read_iges_surface(const IgesParameters& parameters);
-
-/// Entity 124 (transformation matrix, section 4.21) as it stands. Throws ToolError like read_iges_surface.
-Eigen::Affine3d read_iges_matrix(const IgesParameters& parameters);
+/// file whatever its "polynomial" flag says. A parameter range that is missing, or from 0 to 0, becomes that of the
+/// knots, and a line to `notes`. The surface is not otherwise checked.
+NurbsSurface read_iges_surface(const IgesParameters& parameters, std::vector<std::string>& notes);
 
 }  // namespace bladefit

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kColumns = 80;
 constexpr std::size_t kSectionColumn = 72;
 constexpr std::string_view kSections = "SGDPT";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -28,14 +29,18 @@ std::optional<int> parse_integer(std::string_view field) {
   return value;
 }
 
+/// Lines ended by LF, CRLF or CR, up to the terminate record: what old systems append is no part of the file. A file
+/// without line ends is cut into records of 80 columns.
 std::vector<std::string_view> split_lines(std::string_view text) {
   std::vector<std::string_view> lines;
+  const bool unbroken = text.find_first_of("\r\n") == std::string_view::npos && text.size() > kColumns;
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    lines.push_back(line);
-    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+    const std::size_t end = unbroken ? kColumns : text.find_first_of("\r\n");
+    lines.push_back(text.substr(0, end));
+    if (lines.back().size() > kSectionColumn && lines.back()[kSectionColumn] == 'T') break;
+    if (end >= text.size()) break;
+    const bool two = !unbroken && text.substr(end, 2) == "\r\n";
+    text.remove_prefix(unbroken ? end : end + (two ? 2 : 1));
   }
   while (!lines.empty() && trimmed(lines.back()).empty()) lines.pop_back();
   return lines;
@@ -85,8 +90,8 @@ Sections split_sections(const std::vector<std::string_view>& lines, const std::s
     Section& part = sections.parts[section];
     if (part.records.empty()) part.first_line = k + 1;
     part.records.push_back(line.substr(0, kSectionColumn));
-    const auto sequence = parse_integer(line.substr(kSectionColumn + 1, kColumns - kSectionColumn - 1));
-    if (sequence != static_cast<int>(part.records.size())) {
+    const std::string_view number = trimmed(line.substr(kSectionColumn + 1, kColumns - kSectionColumn - 1));
+    if (!number.empty() && parse_integer(number) != static_cast<int>(part.records.size())) {
       sections.fail(k + 1, fmt::format("record {} of section {} is missing or misnumbered", part.records.size(),
                                        kSections[section]));
     }
@@ -111,6 +116,13 @@ void check_terminate(const Sections& sections, std::size_t line_count) {
   }
 }
 
+/// The eight digits of the status number, in which some systems write blanks for zeros.
+std::string padded_status(std::string_view field) {
+  std::string status(field);
+  for (char& digit : status) digit = digit >= '0' && digit <= '9' ? digit : '0';
+  return status;
+}
+
 void read_entity(const Sections& sections, std::size_t entry, IgesEntity& entity) {
   const Section& directory = sections.of('D');
   const Section& parameters = sections.of('P');
@@ -119,7 +131,10 @@ void read_entity(const Sections& sections, std::size_t entry, IgesEntity& entity
   const std::size_t line = directory.first_line + entry;
   entity.type = iges_integer(first_record.substr(0, 8), sections.file, line);
   entity.directory_number = static_cast<int>(entry) + 1;
+  entity.level = iges_integer(first_record.substr(32, 8), sections.file, line);
   entity.matrix = iges_integer(first_record.substr(48, 8), sections.file, line);
+  entity.status = padded_status(first_record.substr(64, 8));
+  entity.form = iges_integer(second_record.substr(32, 8), sections.file, line + 1);
   entity.label = trimmed(second_record.substr(56, 8));
   const int first = iges_integer(first_record.substr(8, 8), sections.file, line);
   const int count = iges_integer(second_record.substr(24, 8), sections.file, line + 1);
@@ -143,6 +158,7 @@ int iges_integer(std::string_view field, const std::string& file, std::size_t li
 
 IgesText split_iges_text(std::string_view text, const std::string& file) {
   if (trimmed(text).empty()) throw ToolError(fmt::format("{}: the file is empty; export the design again", file));
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   const std::vector<std::string_view> lines = split_lines(text);
   const Sections sections = split_sections(lines, file);
   check_terminate(sections, lines.size());

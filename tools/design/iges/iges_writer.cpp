@@ -70,17 +70,17 @@ std::vector<std::string> global_fields(const IgesOutputHeader& header) {
   fields.push_back(hollerith("1.0"));
   for (const char* digits : {"32", "38", "6", "308", "15"}) fields.emplace_back(digits);
   fields.insert(fields.end(), {hollerith("blade"), header.scale, header.units, "1", "0.01", hollerith(header.date)});
-  fields.insert(fields.end(), {"1.0D-06", iges_real(header.largest_coordinate), hollerith("bladefit")});
+  fields.insert(fields.end(), {header.resolution, iges_real(header.largest_coordinate), hollerith("bladefit")});
   fields.insert(fields.end(), {hollerith("bladefit"), "11", "0", hollerith(header.date)});
   return fields;
 }
 
 /// The two directory records of an entity whose parameters are the records `first` .. `last`.
 void append_entry(const IgesOutputEntity& entity, int first, int last, Section& directory) {
-  directory.append(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", entity.type, first, 0, 1, 0, 0,
-                               entity.matrix, 0, "00000000"));
-  directory.append(
-      fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>24}{:>8}", entity.type, 0, 0, last - first + 1, 0, entity.label, 0));
+  directory.append(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", entity.type, first, 0, 1, entity.level,
+                               0, entity.matrix, 0, entity.status));
+  directory.append(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>24}{:>8}", entity.type, 0, 0, last - first + 1, entity.form,
+                               entity.label, 0));
 }
 
 /// True where the surface begins and ends in control points that it passes through.

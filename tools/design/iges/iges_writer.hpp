@@ -15,6 +15,8 @@ struct IgesOutputEntity {
   std::string parameters;  ///< numbers separated by commas, the type first, without end mark
   int matrix = 0;          ///< directory number of its transformation matrix (entity 124), or 0
   std::string label;       ///< at most 8 characters
+  int form = 0, level = 0;
+  std::string status = "00000000";  ///< blank, subordinate, use and hierarchy, two digits each
 };
 
 /// What changes from file to file in the start and global sections; fields as they stand in the file.
@@ -24,6 +26,7 @@ struct IgesOutputHeader {
   std::string scale = "1.0";             ///< field 13
   std::string units = "2,2HMM";          ///< fields 14 and 15: flag and name
   std::string date = "20240101.000000";  ///< fields 18 and 25: YYYYMMDD.HHNNSS
+  std::string resolution = "1.0D-06";    ///< field 19
   double largest_coordinate = 0;         ///< field 20
 };
 

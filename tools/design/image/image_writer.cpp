@@ -74,7 +74,8 @@ void append_spans(const BezierPatch& bezier, int outward, double near, ImagePart
   parts.taylor.insert(parts.taylor.end(), bezier.taylor.begin(), bezier.taylor.end());
 }
 
-void append_patch(const BezierPatch& bezier, int outward, double near, ImageParts& parts) {
+void append_patch(const NurbsSurface& surface, int outward, double near, ImageParts& parts) {
+  const BezierPatch bezier = extract_bezier(surface);
   ImagePatch patch{};
   patch.degree_u = static_cast<std::uint32_t>(bezier.degree_u);
   patch.degree_v = static_cast<std::uint32_t>(bezier.degree_v);
@@ -84,7 +85,8 @@ void append_patch(const BezierPatch& bezier, int outward, double near, ImagePart
   patch.first_break_u = append_breaks(bezier.breaks_u, parts);
   patch.first_break_v = append_breaks(bezier.breaks_v, parts);
   patch.rational = bezier.rational ? 1 : 0;
-  append_spans(bezier, outward, near, parts);
+  patch.reversed = surface.reversed ? 1 : 0;
+  append_spans(bezier, surface.reversed ? -outward : outward, near, parts);
   parts.patches.push_back(patch);
 }
 
@@ -129,7 +131,7 @@ void seal(std::vector<std::byte>& image) {
 std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward) {
   ImageParts parts;
   const double near = kNear * half_diagonal(surfaces);
-  for (const NurbsSurface& surface : surfaces) append_patch(extract_bezier(surface), outward, near, parts);
+  for (const NurbsSurface& surface : surfaces) append_patch(surface, outward, near, parts);
   if (parts.leaves.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
     throw ToolError("the design has too many knot spans; export the blade with fewer knots");
   }

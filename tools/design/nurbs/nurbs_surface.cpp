@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/surface/design_image.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -22,6 +21,7 @@ constexpr double kLargestCoordinate = 1e9;
 struct Context {
   std::string file, surface;
   char direction = 'u';
+  int highest_degree = 0;
   std::vector<std::string>* notes = nullptr;
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -31,9 +31,9 @@ struct Context {
 };
 
 void check_counts(const SurfaceDirection& direction, const Context& context) {
-  if (direction.degree < 1 || direction.degree > static_cast<int>(kMaxDegree)) {
+  if (direction.degree < 1 || direction.degree > context.highest_degree) {
     context.fail(fmt::format("degree {} in {} is outside 1..{}; export the surface with a degree up to {}",
-                             direction.degree, context.direction, kMaxDegree, kMaxDegree));
+                             direction.degree, context.direction, context.highest_degree, context.highest_degree));
   }
   if (direction.control_points <= direction.degree) {
     context.fail(fmt::format("{} control points in {} are too few for degree {}; at least {} are needed",
@@ -161,9 +161,9 @@ void check_net(const NurbsSurface& surface, const Context& context) {
 
 }  // namespace
 
-std::vector<std::string> check_surface(NurbsSurface& surface, const std::string& file) {
+std::vector<std::string> check_surface(NurbsSurface& surface, const std::string& file, int highest_degree) {
   std::vector<std::string> notes;
-  Context context{file, surface.name, 'u', &notes};
+  Context context{file, surface.name, 'u', highest_degree, &notes};
   check_direction(surface.u, context);
   context.direction = 'v';
   check_direction(surface.v, context);

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/surface/design_image.hpp"
+
 namespace bladefit {
 
 /// One parameter direction of a surface. Control point i weighs on the knots i .. i + degree + 1.
@@ -19,6 +21,7 @@ struct NurbsSurface {
   SurfaceDirection u, v;
   std::vector<Eigen::Vector3d> control_points;  ///< [mm]; point (i, j) at i * v.control_points + j
   std::vector<double> weights;                  ///< one a control point, in the same order
+  bool reversed = false;                        ///< the face looks to the other side than Su x Sv
 };
 
 /// Checks every field of `surface` and makes knots that differ by less than 1e-12 of the range one knot, so that
@@ -26,6 +29,7 @@ struct NurbsSurface {
 /// Returns one line for each thing that was repaired (none for a clean surface).
 /// Throws ToolError naming the field: degree, number of knots, falling or not finite knots, multiplicity, torn
 /// surface, parameter range, control points, weights.
-std::vector<std::string> check_surface(NurbsSurface& surface, const std::string& file);
+std::vector<std::string> check_surface(NurbsSurface& surface, const std::string& file,
+                                       int highest_degree = static_cast<int>(kMaxDegree));
 
 }  // namespace bladefit

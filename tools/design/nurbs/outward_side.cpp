@@ -2,19 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "tools/design/nurbs/bezier_extraction.hpp"
+#include "tools/design/nurbs/facets.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
 
-/// Facets a patch is divided into, in each direction, at least; spans with more knots get one a span.
-constexpr std::size_t kFacets = 32;
 /// Pairs of facets of a whole design that is looked at coarsely, and parts of each direction of a patch there at least.
 constexpr double kCoarseFacets = 600;
 constexpr std::size_t kLeastParts = 4;
@@ -26,72 +23,6 @@ constexpr double kEnclosed = 0.3;
 constexpr double kMajority = 0.8;
 /// Where both sides have this part of the area, patches contradict each other.
 constexpr double kContradiction = 0.2;
-
-struct Facet {
-  Eigen::Vector3d a, b, c;
-
-  [[nodiscard]] Eigen::Vector3d centre() const { return (a + b + c) / 3; }
-  [[nodiscard]] double area() const { return (b - a).cross(c - a).norm() / 2; }
-};
-
-/// Point of a Bezier patch at the normalised parameters, by de Casteljau.
-Eigen::Vector3d evaluate(const BezierPatch& patch, double u, double v) {
-  const auto locate = [](const std::vector<double>& breaks, double t) {
-    const auto above = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, t);
-    return static_cast<std::size_t>(above - breaks.begin()) - 1;
-  };
-  const auto reduce = [](std::vector<Eigen::Vector4d> points, double t) {
-    for (std::size_t last = points.size() - 1; last > 0; --last) {
-      for (std::size_t k = 0; k < last; ++k) points[k] = (1 - t) * points[k] + t * points[k + 1];
-    }
-    return points.front();
-  };
-  const std::size_t iu = locate(patch.breaks_u, u);
-  const std::size_t iv = locate(patch.breaks_v, v);
-  const double s = (u - patch.breaks_u[iu]) / (patch.breaks_u[iu + 1] - patch.breaks_u[iu]);
-  const double t = (v - patch.breaks_v[iv]) / (patch.breaks_v[iv + 1] - patch.breaks_v[iv]);
-  const double* net = &patch.coefficients[(iu * patch.spans_v() + iv) * patch.span_size()];
-  std::vector<Eigen::Vector4d> column;
-  for (int i = 0; i <= patch.degree_u; ++i) {
-    std::vector<Eigen::Vector4d> row;
-    for (int j = 0; j <= patch.degree_v; ++j) row.emplace_back(net + 4 * (i * (patch.degree_v + 1) + j));
-    column.push_back(reduce(row, t));
-  }
-  const Eigen::Vector4d point = reduce(column, s);
-  return point.head<3>() / point.w();
-}
-
-/// Parameters of the facet corners: every break (or some, where there are hundreds), and points between.
-std::vector<double> facet_parameters(const std::vector<double>& breaks) {
-  const std::size_t spans = breaks.size() - 1;
-  const std::size_t parts = (kFacets + spans - 1) / spans;
-  const std::size_t stride = (spans + 2 * kFacets - 1) / (2 * kFacets);
-  std::vector<double> parameters;
-  for (std::size_t k = 0; k < spans; k += stride) {
-    const double next = breaks[std::min(k + stride, spans)];
-    for (std::size_t part = 0; part < parts; ++part) {
-      parameters.push_back(breaks[k] + (next - breaks[k]) * static_cast<double>(part) / static_cast<double>(parts));
-    }
-  }
-  parameters.push_back(1.0);
-  return parameters;
-}
-
-/// The facets between points at every pair of parameters; at(u, v) is a point.
-template <class At>
-void append_facets(const std::vector<double>& us, const std::vector<double>& vs, At at, std::vector<Facet>& facets) {
-  std::vector<Eigen::Vector3d> points;
-  for (const double u : us) {
-    for (const double v : vs) points.push_back(at(u, v));
-  }
-  const auto point = [&](std::size_t i, std::size_t j) { return points[i * vs.size() + j]; };
-  for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-    for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-      facets.push_back({point(i, j), point(i + 1, j), point(i + 1, j + 1)});
-      facets.push_back({point(i, j), point(i + 1, j + 1), point(i, j + 1)});
-    }
-  }
-}
 
 std::vector<double> even_parameters(std::size_t parts) {
   std::vector<double> parameters;
@@ -155,26 +86,14 @@ std::optional<OutwardSide> agreed_side(const Votes& votes) {
 
 }  // namespace
 
-OutwardSide find_outward_side(const std::vector<NurbsSurface>& surfaces, const std::string& file) {
-  std::vector<Facet> facets;
-  for (const NurbsSurface& surface : surfaces) {
-    const BezierPatch patch = extract_bezier(surface);
-    append_facets(
-        facet_parameters(patch.breaks_u), facet_parameters(patch.breaks_v),
-        [&patch](double u, double v) { return evaluate(patch, u, v); }, facets);
+SideVote vote_by_winding(const std::vector<NurbsSurface>& surfaces) {
+  FacetedSurfaces faces = faceted(surfaces);
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (!surfaces[k].reversed) continue;
+    for (std::size_t f = faces.first[k]; f < faces.first[k + 1]; ++f) std::swap(faces.facets[f].b, faces.facets[f].c);
   }
-  const Votes votes = collect_votes(facets);
-  if (const std::optional<OutwardSide> side = agreed_side(votes)) return *side;
-  if (contradict(votes)) {
-    throw ToolError(
-        fmt::format("{}: the patches' normals do not all point to the same side of the material; reverse "
-                    "the wrong ones in the CAD system",
-                    file));
-  }
-  throw ToolError(
-      fmt::format("{}: the shape does not tell which side is away from the material; say --outward + (that "
-                  "of Su x Sv) or --outward -",
-                  file));
+  const Votes votes = collect_votes(faces.facets);
+  return {agreed_side(votes), contradict(votes)};
 }
 
 std::optional<OutwardSide> outward_side_of(const Surface& surface) {
@@ -186,7 +105,10 @@ std::optional<OutwardSide> outward_side_of(const Surface& surface) {
     const auto at = [&](double u, double v) -> Eigen::Vector3d {
       return surface.evaluate(surface.place_at(patch, u, v)).s;
     };
+    const std::size_t first = facets.size();
     append_facets(parameters, parameters, at, facets);
+    if (surface.image().patches()[patch].reversed == 0) continue;
+    for (std::size_t k = first; k < facets.size(); ++k) std::swap(facets[k].b, facets[k].c);
   }
   return agreed_side(collect_votes(facets));
 }

@@ -1,23 +1,15 @@
 #include "tools/design/occ/face_trim.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
-#include <Geom_BSplineSurface.hxx>
-#include <Geom_BezierSurface.hxx>
-#include <Geom_RectangularTrimmedSurface.hxx>
-#include <IGESControl_Reader.hxx>
-#include <IGESData_IGESEntity.hxx>
-#include <IGESData_IGESModel.hxx>
+#include <Geom_Surface.hxx>
+#include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
 
-#include <algorithm>
-
-#include "tools/files/tool_error.hpp"
+#include <cmath>
 
 namespace bladefit {
 namespace {
@@ -25,76 +17,68 @@ namespace {
 /// What is nearer to a natural bound than this share of the range lies on it: boundary curves are approximations.
 constexpr double kOnBound = 1e-4;
 constexpr int kSamples = 16;  ///< of each boundary curve
-constexpr int kBoundedTypes[] = {143, 144, 510};
 
-bool inside(double value, double low, double high) {
+/// Moves one end of an interval to the natural bound that it means.
+void settle(double& value, double low, double high) {
+  if (Precision::IsInfinite(low) || Precision::IsInfinite(high)) return;
   const double margin = kOnBound * (high - low);
-  return value > low + margin && value < high - margin;
+  if (std::abs(value - low) <= margin) value = low;
+  if (std::abs(value - high) <= margin) value = high;
 }
 
-/// The B-spline or Bezier surface under a face; null where the face lies on another one.
-Handle(Geom_Surface) free_form_surface(const TopoDS_Face& face) {
-  TopLoc_Location place;
-  Handle(Geom_Surface) surface = BRep_Tool::Surface(face, place);
-  if (const auto part = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface); !part.IsNull()) {
-    surface = part->BasisSurface();
+/// Parameters outside of the natural bounds have no surface, unless it is periodic.
+void settle(double& from, double& to, double low, double high, bool periodic) {
+  settle(from, low, high);
+  settle(to, low, high);
+  if (periodic) {
+    if (to - from >= (1.0 - kOnBound) * (high - low)) to = from + (high - low);
+    return;
   }
-  const bool free_form = !surface.IsNull() && (surface->IsKind(STANDARD_TYPE(Geom_BSplineSurface)) ||
-                                               surface->IsKind(STANDARD_TYPE(Geom_BezierSurface)));
-  return free_form ? surface : Handle(Geom_Surface){};
-}
-
-bool is_trimmed_face(const TopoDS_Face& face) {
-  const Handle(Geom_Surface) surface = free_form_surface(face);
-  if (surface.IsNull()) return false;
-  double u_low = 0, u_high = 0, v_low = 0, v_high = 0;
-  surface->Bounds(u_low, u_high, v_low, v_high);
-  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
-    double first = 0, last = 0;
-    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, first, last);
-    for (int k = 0; !curve.IsNull() && k <= kSamples; ++k) {
-      const gp_Pnt2d place = curve->Value(first + (last - first) * k / kSamples);
-      if (inside(place.X(), u_low, u_high) && inside(place.Y(), v_low, v_high)) return true;
-    }
-  }
-  return false;
+  from = std::max(from, low);
+  to = std::min(to, high);
 }
 
 }  // namespace
 
-bool is_trimmed(const TopoDS_Shape& shape) {
-  if (shape.IsNull()) return true;
-  TopExp_Explorer faces(shape, TopAbs_FACE);
-  if (!faces.More()) return true;
-  for (; faces.More(); faces.Next()) {
-    if (is_trimmed_face(TopoDS::Face(faces.Current()))) return true;
-  }
-  return false;
-}
-
-std::vector<std::string> trimmed_iges_faces(const std::filesystem::path& path) {
-  IGESControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) {
-    throw ToolError(fmt::format("{}: its trimmed surfaces cannot be read; export the design again", path.string()));
-  }
-  const Handle(IGESData_IGESModel) model = reader.IGESModel();
-  std::vector<std::string> names;
-  for (int k = 1; k <= model->NbEntities(); ++k) {
-    const Handle(IGESData_IGESEntity) entity = model->Entity(k);
-    if (std::ranges::find(kBoundedTypes, entity->TypeNumber()) == std::end(kBoundedTypes)) continue;
-    reader.ClearShapes();
-    reader.TransferEntity(entity);
-    if (is_trimmed(reader.OneShape())) {
-      names.push_back(fmt::format("entity {} at D{}", entity->TypeNumber(), model->DNum(entity)));
+TrimLoops trim_loops(const TopoDS_Face& face) {
+  TrimLoops loops;
+  for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
+    for (TopExp_Explorer edges(wires.Current(), TopAbs_EDGE); edges.More(); edges.Next()) {
+      double first = 0, last = 0;
+      const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, first, last);
+      if (curve.IsNull()) continue;
+      std::vector<Eigen::Vector2d>& polygon = loops.emplace_back();
+      for (int k = 0; k <= kSamples; ++k) {
+        const gp_Pnt2d place = curve->Value(first + (last - first) * k / kSamples);
+        polygon.emplace_back(place.X(), place.Y());
+      }
     }
   }
-  return names;
+  return loops;
 }
 
-std::string trim_warning(const std::string& file, const std::vector<std::string>& names) {
-  if (names.empty()) return {};
-  return fmt::format("{}: trimmed faces are used whole, points beyond their trim are judged as well: {}", file,
-                     fmt::join(names, ", "));
+bool inside_loops(const TrimLoops& loops, const Eigen::Vector2d& place) {
+  bool inside = loops.empty();
+  for (const std::vector<Eigen::Vector2d>& polygon : loops) {
+    for (std::size_t k = 1; k < polygon.size(); ++k) {
+      const Eigen::Vector2d &a = polygon[k - 1], &b = polygon[k];
+      if ((a.y() > place.y()) == (b.y() > place.y())) continue;
+      const double crossing = a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      if (crossing > place.x()) inside = !inside;
+    }
+  }
+  return inside;
+}
+
+FaceBox face_box(const TopoDS_Face& face) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  FaceBox natural{}, box{};
+  surface->Bounds(natural.u_min, natural.u_max, natural.v_min, natural.v_max);
+  if (BRep_Tool::NaturalRestriction(face) || !TopExp_Explorer(face, TopAbs_EDGE).More()) return natural;
+  BRepTools::UVBounds(face, box.u_min, box.u_max, box.v_min, box.v_max);
+  settle(box.u_min, box.u_max, natural.u_min, natural.u_max, surface->IsUPeriodic());
+  settle(box.v_min, box.v_max, natural.v_min, natural.v_max, surface->IsVPeriodic());
+  return box;
 }
 
 }  // namespace bladefit

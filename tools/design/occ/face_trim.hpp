@@ -1,21 +1,26 @@
 #pragma once
-#include <filesystem>
-#include <string>
-#include <vector>
+#include <TopoDS_Face.hxx>
 
-class TopoDS_Shape;
+#include <Eigen/Core>
+#include <vector>
 
 namespace bladefit {
 
-/// Whether a face of the shape on a B-spline surface is bounded inside the surface's natural bounds. A shape without
-/// faces, which the CAD library could not make out of its entity, counts as trimmed: nobody knows that it is not.
-[[nodiscard]] bool is_trimmed(const TopoDS_Shape& shape);
+/// A rectangle of a surface's own parameters.
+struct FaceBox {
+  double u_min, u_max, v_min, v_max;
+};
 
-/// Names of the bounded entities (143, 144, 510) of an IGES file that are trimmed in this sense. To be called within
-/// with_cad_library().
-[[nodiscard]] std::vector<std::string> trimmed_iges_faces(const std::filesystem::path& path);
+/// The bounds of a face as polylines in the parameters of its surface, one a curve of 17 points; together they close.
+/// None where the face is all of its surface. OpenCASCADE's own classifier takes up to 1 ms a point.
+using TrimLoops = std::vector<std::vector<Eigen::Vector2d>>;
+[[nodiscard]] TrimLoops trim_loops(const TopoDS_Face& face);
 
-/// One line that tells which faces are used whole although they are trimmed; empty for no names.
-[[nodiscard]] std::string trim_warning(const std::string& file, const std::vector<std::string>& names);
+/// A place lies inside of the loops: a line from it crosses them an odd number of times. True where there are none.
+[[nodiscard]] bool inside_loops(const TrimLoops& loops, const Eigen::Vector2d& place);
+
+/// The box of a face's bounds. Sides within 1e-4 of the surface's range to its natural bounds, as approximated curves
+/// are, lie on them.
+[[nodiscard]] FaceBox face_box(const TopoDS_Face& face);
 
 }  // namespace bladefit

@@ -1,13 +1,9 @@
 #include "tools/design/step/step_reader.hpp"
 
 #include <fmt/format.h>
-#include <Interface_Check.hxx>
+#include <fmt/ranges.h>
 #include <STEPControl_Reader.hxx>
-#include <StepGeom_BSplineSurface.hxx>
-#include <StepGeom_RectangularTrimmedSurface.hxx>
-#include <StepRepr_MappedItem.hxx>
-#include <StepRepr_RepresentationRelationshipWithTransformation.hxx>
-#include <StepShape_FaceSurface.hxx>
+#include <StepGeom_Surface.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopoDS_Shape.hxx>
 
@@ -15,26 +11,23 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
+#include <sstream>
 
+#include "tools/design/text/design_text.hpp"
 #include "tools/design/occ/cad_session.hpp"
-#include "tools/design/occ/face_trim.hpp"
-#include "tools/design/step/step_surface.hpp"
+#include "tools/design/occ/design_faces.hpp"
+#include "tools/design/occ/transferred_faces.hpp"
+#include "tools/design/step/step_implied_knots.hpp"
+#include "tools/design/step/step_model.hpp"
 #include "tools/design/step/step_text.hpp"
 #include "tools/design/step/step_unit.hpp"
-#include "tools/files/read_text.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
 
 constexpr std::string_view kPatchName = "PATCH";
-
-/// A B-spline surface entity with the name of its face.
-struct NamedSurface {
-  int number = 0;  ///< of the entity in the file: #number
-  std::string face;
-  Handle(StepGeom_BSplineSurface) entity;
-};
 
 /// k of a face named PATCHk.
 std::optional<int> patch_number(const std::string& face) {
@@ -46,115 +39,105 @@ std::optional<int> patch_number(const std::string& face) {
   return number;
 }
 
-/// An entity that the library could not read is no error by itself, unless a surface depends on it.
-void check_readable(const StepData_StepModel& model, int index, const std::string& file) {
-  if (!model.IsErrorEntity(index)) return;
-  const Handle(Interface_Check)& check = model.Check(index, Standard_True);
-  const std::string reason = !check.IsNull() && check->NbFails() > 0 ? check->CFail(1) : "damaged record";
-  throw ToolError(fmt::format("{}: #{} ({}): {}; export the design again", file, model.IdentLabel(model.Value(index)),
-                              model.TypeName(model.Value(index), Standard_False), reason));
+/// By the number of the face where all are named PATCHk; else by that of the entity. Copies of a part stay in the order
+/// of the assembly.
+void sort_faces(std::vector<CadFace>& faces) {
+  std::vector<std::pair<int, CadFace>> keyed;
+  const bool named =
+      std::ranges::all_of(faces, [](const CadFace& face) { return patch_number(face.name).has_value(); });
+  for (CadFace& face : faces) {
+    const int key = named ? *patch_number(face.name) : face.order;
+    keyed.emplace_back(key, std::move(face));
+  }
+  std::ranges::stable_sort(keyed, {}, &std::pair<int, CadFace>::first);
+  for (std::size_t k = 0; k < faces.size(); ++k) faces[k] = std::move(keyed[k].second);
 }
 
-/// Refuses what would stand somewhere else than its coordinates say.
-void check_placement(const StepData_StepModel& model, int index, const std::string& file) {
-  const Handle(Standard_Transient)& entity = model.Value(index);
-  if (entity->IsKind(STANDARD_TYPE(StepRepr_MappedItem)) ||
-      entity->IsKind(STANDARD_TYPE(StepRepr_RepresentationRelationshipWithTransformation))) {
-    throw ToolError(
-        fmt::format("{}: #{}: the file is an assembly, whose placements are not supported; export the "
-                    "blade as one part",
-                    file, model.IdentLabel(entity)));
-  }
+std::string name_of(const StepShape_FaceSurface& face) {
+  if (!face.Name().IsNull() && face.Name()->Length() > 0) return face.Name()->ToCString();
+  const Handle(StepGeom_Surface) surface = face.FaceGeometry();
+  return surface.IsNull() || surface->Name().IsNull() ? "" : surface->Name()->ToCString();
 }
 
 std::string list_types(const StepData_StepModel& model) {
   std::map<std::string, int> counts;
   for (int k = 1; k <= model.NbEntities(); ++k) {
-    ++counts[StepData_StepModel::ClassName(model.TypeName(model.Value(k), Standard_False))];
+    const std::string type = model.Value(k)->DynamicType()->Name();
+    if (type.find("Surface") != std::string::npos || type.find("Solid") != std::string::npos) ++counts[type];
   }
-  std::string list;
-  for (const auto& [type, count] : counts) list += fmt::format("{}{} x {}", list.empty() ? "" : ", ", count, type);
-  return list.empty() ? "none" : list;
+  std::vector<std::string> list;
+  for (const auto& [type, count] : counts) list.push_back(fmt::format("{} x {}", count, type));
+  return list.empty() ? "none" : fmt::format("{}", fmt::join(list, ", ")).substr(0, 120);
 }
 
-std::vector<NamedSurface> find_surfaces(const StepData_StepModel& model, const std::string& file) {
-  std::vector<NamedSurface> surfaces;
-  std::map<const Standard_Transient*, std::string> faces;
-  for (int k = 1; k <= model.NbEntities(); ++k) {
-    check_readable(model, k, file);
-    check_placement(model, k, file);
-    const Handle(Standard_Transient)& entity = model.Value(k);
-    if (const auto surface = Handle(StepGeom_BSplineSurface)::DownCast(entity); !surface.IsNull()) {
-      surfaces.push_back({model.IdentLabel(entity), "", surface});
+/// Gives the faces of a transfer the names, layers and numbers that their entities have; leaves hidden ones out.
+void name_faces(const StepModel& model, const FaceSources& sources, CadFaces& read) {
+  std::size_t hidden = 0;
+  std::vector<CadFace> shown;
+  for (CadFace& face : read.faces) {
+    const auto source = sources.find(key_of(face.face));
+    const Handle(Standard_Transient) entity = source == sources.end() ? nullptr : source->second;
+    if (!entity.IsNull() && model.is_hidden(entity.get())) {
+      ++hidden;
+      continue;
     }
-    const auto face = Handle(StepShape_FaceSurface)::DownCast(entity);
-    if (!face.IsNull() && !face->FaceGeometry().IsNull() && !face->Name().IsNull()) {
-      faces[face->FaceGeometry().get()] = face->Name()->ToCString();
+    face.entity = entity.IsNull() ? "face" : "face " + model.label_of(entity);
+    face.order = entity.IsNull() ? std::numeric_limits<int>::max() : model.place_of(entity);
+    face.layer = entity.IsNull() ? "" : model.layer_of(entity.get());
+    const auto named = Handle(StepShape_FaceSurface)::DownCast(entity);
+    if (!named.IsNull()) face.name = name_of(*named);
+    shown.push_back(std::move(face));
+  }
+  read.faces = std::move(shown);
+  if (hidden > 0) read.notes.push_back(fmt::format("{} hidden faces (INVISIBILITY) are left out", hidden));
+}
+
+/// Faces of the file of which the transfer made nothing: those it failed at, and those of no product.
+void note_absent(const StepModel& model, const FaceSources& sources, CadFaces& read) {
+  std::set<const Standard_Transient*> made;
+  for (const auto& [face, entity] : sources) made.insert(entity.get());
+  std::size_t loose = 0;
+  for (const Handle(StepShape_FaceSurface) & face : model.faces()) {
+    if (made.count(face.get()) > 0 || model.is_hidden(face.get())) continue;
+    if (!model.is_in_a_shape(face.get())) {
+      ++loose;
+      continue;
     }
+    const Handle(StepGeom_Surface) surface = face->FaceGeometry();
+    read.unread.push_back(fmt::format("face {} ({}): the CAD library makes no face of it", model.label_of(face),
+                                      surface.IsNull() ? "no surface" : surface->DynamicType()->Name()));
   }
-  for (NamedSurface& surface : surfaces) surface.face = faces[surface.entity.get()];
-  return surfaces;
+  if (loose > 0) read.notes.push_back(fmt::format("{} faces that belong to no product's shape are left out", loose));
 }
 
-bool lies_on_a_bspline(const StepShape_FaceSurface& face) {
-  Handle(StepGeom_Surface) surface = face.FaceGeometry();
-  if (const auto part = Handle(StepGeom_RectangularTrimmedSurface)::DownCast(surface); !part.IsNull()) {
-    surface = part->BasisSurface();
-  }
-  return !surface.IsNull() && surface->IsKind(STANDARD_TYPE(StepGeom_BSplineSurface));
-}
-
-/// Names of the faces that are bounded inside their B-spline surface.
-std::vector<std::string> find_trimmed(STEPControl_Reader& reader) {
-  const Handle(StepData_StepModel) model = reader.StepModel();
-  std::vector<std::string> names;
-  for (int k = 1; k <= model->NbEntities(); ++k) {
-    const auto face = Handle(StepShape_FaceSurface)::DownCast(model->Value(k));
-    if (face.IsNull() || !lies_on_a_bspline(*face)) continue;
-    reader.ClearShapes();
-    reader.TransferEntity(face);
-    if (!is_trimmed(reader.OneShape())) continue;
-    const std::string label = face->Name().IsNull() ? "" : face->Name()->ToCString();
-    names.push_back(
-        fmt::format("face #{}{}", model->IdentLabel(face), label.empty() ? "" : fmt::format(" ({})", label)));
-  }
-  return names;
-}
-
-/// By the number of the face where all are named PATCHk; else by that of the entity.
-void sort_surfaces(std::vector<NamedSurface>& surfaces) {
-  const bool named = std::all_of(surfaces.begin(), surfaces.end(),
-                                 [](const NamedSurface& surface) { return patch_number(surface.face).has_value(); });
-  if (!named) return;
-  std::stable_sort(surfaces.begin(), surfaces.end(), [](const NamedSurface& a, const NamedSurface& b) {
-    return *patch_number(a.face) < *patch_number(b.face);
-  });
-}
-
-DesignFile read_model(const std::string& file) {
+DesignFile read_model(std::string text, const std::string& file) {
   STEPControl_Reader reader;
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+  std::istringstream stream(std::move(text));
+  if (reader.ReadStream(file.c_str(), stream) != IFSelect_RetDone) {
     throw ToolError(fmt::format("{}: the STEP file cannot be parsed; export the design again", file));
   }
   const Handle(StepData_StepModel) model = reader.StepModel();
-  std::vector<NamedSurface> surfaces = find_surfaces(*model, file);
-  if (surfaces.empty()) {
-    throw ToolError(
-        fmt::format("{}: no B-spline surface in the file; entity types there: {}; export the blade as "
-                    "B-spline surfaces",
-                    file, list_types(*model)));
-  }
-  sort_surfaces(surfaces);
+  const StepModel facts(model, reader.WS()->Graph(), file);
+  facts.check_faces();
+  for (const Handle(StepShape_FaceSurface) & face : facts.faces()) write_implied_knots(*face);
   const LengthUnit unit = read_step_unit(*model, file);
   DesignFile design;
   design.unit = shown_unit(unit);
   if (const std::string note = shown_unit_note(unit); !note.empty()) design.warnings.push_back(note);
-  for (const NamedSurface& surface : surfaces) {
-    const std::string name =
-        fmt::format("surface #{}{}", surface.number, surface.face.empty() ? "" : fmt::format(" ({})", surface.face));
-    design.surfaces.push_back(read_step_surface(surface.entity, name, unit.mm, file));
+  reader.TransferRoots();
+  CadFaces read;
+  if (const TopoDS_Shape shape = reader.OneShape(); !shape.IsNull()) read.faces = faces_of(shape);
+  const FaceSources sources = face_sources(reader.WS());
+  name_faces(facts, sources, read);
+  note_absent(facts, sources, read);
+  if (read.faces.empty() && read.unread.empty()) {
+    throw ToolError(
+        fmt::format("{}: no face of a product in the file; surfaces there: {}; export the blade as a solid or as "
+                    "surfaces, not as a mesh or curves",
+                    file, list_types(*model)));
   }
-  design.trimmed = find_trimmed(reader);
+  sort_faces(read.faces);
+  append_surfaces(read, design);
   return design;
 }
 
@@ -162,8 +145,8 @@ DesignFile read_model(const std::string& file) {
 
 DesignFile read_step(const std::filesystem::path& path) {
   const std::string file = path.string();
-  check_step_text(read_text(path), file);
-  return with_cad_library(file, [&] { return read_model(file); });
+  std::string text = clean_step_text(read_design_text(path), file);
+  return with_cad_library(file, [&] { return read_model(std::move(text), file); });
 }
 
 }  // namespace bladefit

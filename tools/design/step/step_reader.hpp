@@ -2,13 +2,12 @@
 #include <filesystem>
 
 #include "tools/design/nurbs/design_file.hpp"
-#include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 
-/// Every B-spline surface of a STEP file, control points as they stand there, turned to mm: in the order of the faces
-/// named PATCH1, PATCH2, ... where all their faces are so named, else of the file. Surfaces are not checked yet.
-/// Throws ToolError.
+/// Reads the faces of all products of a STEP file (AP203, AP214, AP242), where the assembly places them. Faces that the
+/// file hides, or that belong to no product's shape, are left out with a note.
+/// Throws ToolError as read_design does.
 DesignFile read_step(const std::filesystem::path& path);
 
 }  // namespace bladefit

@@ -5,16 +5,21 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
+#include "tools/design/step/step_references.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kFirst = "ISO-10303-21;";
 constexpr std::string_view kLast = "END-ISO-10303-21;";
 /// White space, and the end-of-file characters that some systems append.
 constexpr std::string_view kBlank{" \t\r\n\f\v\x1a\0", 8};
+/// Parentheses inside each other: real files have less than ten, and the library's parser needs memory for each.
+constexpr int kMaxDepth = 100;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
@@ -27,16 +32,19 @@ bool is_word_start(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 
 bool is_word(char c) { return is_word_start(c) || is_digit(c) || c == '-'; }
 bool is_number(char c) { return is_word(c) || c == '.' || c == '+'; }
 
-/// Walks through the text token by token, as far as is needed to find unbalanced parentheses, strings and comments that
-/// do not end, and numbers that are none.
+/// Walks through the text token by token and copies it, reals as OpenCASCADE wants them.
 class TokenScanner {
  public:
-  TokenScanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+  TokenScanner(std::string_view text, const std::string& file) : text_(text), file_(file), references_(file) {}
 
   /// Throws ToolError at the first fault.
-  void check() {
+  std::string clean() {
+    result_.reserve(text_.size());
     while (place_ < text_.size()) step();
     if (depth_ != 0) fail("the last statement does not end");
+    references_.check();
+    result_ += text_.substr(copied_);
+    return std::move(result_);
   }
 
  private:
@@ -47,16 +55,18 @@ class TokenScanner {
     if (c == '"') return skip_past("\"", "binary number");
     if (c == '/' && next == '*') return skip_past("*/", "comment");
     if (c == '.' && is_word_start(next)) return skip_past(".", "enumeration");
-    if (c == '#') return take_while(is_word, 1);
+    if (c == '#') return take_instance();
     if (is_word_start(c)) return take_while(is_word, 0);
-    if (is_digit(c) || c == '-' || c == '+' || c == '.') return check_number();
+    if (is_digit(c) || c == '-' || c == '+' || c == '.') return take_number();
     count_parentheses(c);
+    if (c == '=' && depth_ == 0 && last_instance_ != 0) references_.define(last_instance_, line_);
+    if (c == ';') last_instance_ = 0;
     if (c == '\n') ++line_;
     ++place_;
   }
 
   void count_parentheses(char c) {
-    if (c == '(') ++depth_;
+    if (c == '(' && ++depth_ > kMaxDepth) fail(fmt::format("more than {} parentheses inside each other", kMaxDepth));
     if (c == ')') --depth_;
     if (depth_ < 0 || (c == ';' && depth_ != 0)) fail("parentheses do not match in the statement that ends here");
   }
@@ -67,7 +77,23 @@ class TokenScanner {
     while (place_ < text_.size() && belongs(text_[place_])) ++place_;
   }
 
-  void check_number() {
+  /// #12 at the beginning of a statement is its number, inside of parentheses a reference.
+  void take_instance() {
+    const std::size_t first = place_ + 1;
+    take_while(is_digit, 1);
+    std::uint32_t number = 0;
+    const auto [stop, error] = std::from_chars(text_.data() + first, text_.data() + place_, number);
+    const bool fits = error == std::errc() && number <= std::uint32_t{std::numeric_limits<std::int32_t>::max()};
+    if (place_ == first) return;
+    if (!fits) fail(fmt::format("#{} is no number that an instance can have", text_.substr(first, place_ - first)));
+    if (depth_ == 0) {
+      last_instance_ = number;
+    } else {
+      references_.refer(number, line_);
+    }
+  }
+
+  void take_number() {
     const std::size_t first = place_;
     take_while(is_number, 1);
     const std::string_view word = text_.substr(first, place_ - first);
@@ -78,6 +104,13 @@ class TokenScanner {
     if (error != std::errc() || stop != end || !std::isfinite(value)) {
       fail(fmt::format("\"{}\" is not a finite number", word));
     }
+    const std::size_t exponent = word.find_first_of("eE");
+    if (exponent == std::string_view::npos) return;
+    const bool pointed = word.substr(0, exponent).find('.') != std::string_view::npos;
+    if (pointed && word[exponent] == 'E') return;
+    result_ += text_.substr(copied_, first - copied_);
+    result_ += fmt::format("{}{}E{}", word.substr(0, exponent), pointed ? "" : ".", word.substr(exponent + 1));
+    copied_ = place_;
   }
 
   void skip_past(std::string_view end, const char* what) {
@@ -94,13 +127,17 @@ class TokenScanner {
 
   std::string_view text_;
   const std::string& file_;
-  std::size_t place_ = 0, line_ = 1;
+  StepReferences references_;
+  std::string result_;
+  std::size_t place_ = 0, copied_ = 0, line_ = 1;
+  std::uint32_t last_instance_ = 0;
   int depth_ = 0;
 };
 
 }  // namespace
 
-void check_step_text(std::string_view text, const std::string& file) {
+std::string clean_step_text(std::string_view text, const std::string& file) {
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   const std::string_view body = trimmed(text);
   if (body.empty()) throw ToolError(fmt::format("{}: the file is empty; export the design again", file));
   if (body.substr(0, kFirst.size()) != kFirst) {
@@ -117,7 +154,7 @@ void check_step_text(std::string_view text, const std::string& file) {
   if (body.find("DATA;") == std::string_view::npos) {
     throw ToolError(fmt::format("{}: the file has no DATA section; export the design again", file));
   }
-  TokenScanner(text.substr(0, text.find_last_not_of(kBlank) + 1), file).check();
+  return TokenScanner(text.substr(0, text.find_last_not_of(kBlank) + 1), file).clean();
 }
 
 }  // namespace bladefit

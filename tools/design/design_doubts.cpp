@@ -1,0 +1,79 @@
+#include "tools/design/design_doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "tools/design/nurbs/neighbours.hpp"
+
+namespace bladefit {
+namespace {
+
+/// Bounds that leave out less than this share of their box are as good as the box.
+constexpr double kWhole = 0.995;
+constexpr std::size_t kListed = 4;
+constexpr double kSmallest_mm = 10, kLargest_mm = 20000;
+/// A sliver is narrower than this part of the design, in mean width.
+constexpr double kSliver = 1e-5;
+
+/// Edges of two faces that run side by side so far apart [mm] leave a gap that may not be meant.
+constexpr double kClosed_mm = 0.1, kApart_mm = 0.5;
+
+double diagonal(const NurbsSurface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : surface.control_points) box.extend(point);
+  return box.diagonal().norm();
+}
+
+double size_of(const DesignFile& design) {
+  Eigen::AlignedBox3d box;
+  for (const NurbsSurface& surface : design.surfaces) {
+    for (const Eigen::Vector3d& point : surface.control_points) box.extend(point);
+  }
+  return box.diagonal().norm();
+}
+
+std::string title(const DesignFace& face) {
+  return face.name.empty() ? face.entity : fmt::format("{} ({})", face.entity, face.name);
+}
+
+}  // namespace
+
+std::string trim_warning(const DesignFile& design, const std::string& file) {
+  std::string list;
+  std::size_t count = 0;
+  for (const DesignFace& face : design.faces) {
+    if (face.share >= kWhole || ++count > kListed) continue;
+    list += fmt::format("{}{}: {:.0f} %", count == 1 ? "" : ", ", title(face), 100 * (1 - face.share));
+  }
+  if (count == 0) return {};
+  if (count > kListed) list += fmt::format(" and {} more", count - kListed);
+  return fmt::format(
+      "{}: trimmed faces are used up to the (u, v) box of their trim, points beyond it are judged as well; "
+      "left out by the trim, but used: {}",
+      file, list);
+}
+
+std::vector<std::string> design_doubts(const DesignFile& design) {
+  std::vector<std::string> doubts;
+  const double size = size_of(design);
+  if (size < kSmallest_mm || size > kLargest_mm) {
+    doubts.push_back(
+        fmt::format("the design is {:.4g} mm large, which no blade is: was it exported in another unit?", size));
+  }
+  for (std::size_t k = 0; k < design.faces.size(); ++k) {
+    const double width = design.faces[k].area / std::max(diagonal(design.surfaces[k]), 1e-300);
+    if (width >= kSliver * size) continue;
+    doubts.push_back(fmt::format("{} is a sliver, {:.2g} mm wide", title(design.faces[k]), width));
+  }
+  for (const Neighbours& pair : find_neighbours(design.surfaces, kApart_mm)) {
+    if (pair.gap_mm <= kClosed_mm) continue;
+    doubts.push_back(fmt::format("{} and {} run side by side up to {:.2g} mm apart: points between them have no foot",
+                                 title(design.faces[pair.surface]), title(design.faces[pair.other]), pair.gap_mm));
+  }
+  for (const std::string& missing : design.missing) doubts.push_back("left out: " + missing);
+  return doubts;
+}
+
+}  // namespace bladefit

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tools/design/nurbs/design_file.hpp"
+
+namespace bladefit {
+
+/// "3 (SUCTION_SIDE)", or the number alone.
+[[nodiscard]] std::string face_title(const DesignFile& design, std::size_t face);
+
+/// The faces that `pattern` means: a number as `compile --list` shows it, a name, or a pattern of names or layers with
+/// * and ?. Throws ToolError where there is none.
+[[nodiscard]] std::vector<std::size_t> faces_named(const DesignFile& design, std::string_view pattern,
+                                                   const std::string& file);
+
+/// Keeps the faces that one of `patterns` means, in the order of the file. Throws ToolError as faces_named does.
+void keep_faces(DesignFile& design, const std::vector<std::string>& patterns, const std::string& file);
+
+/// Leaves out the faces on planes, cylinders and other plain surfaces whose bounds leave out much of their box, with a
+/// line to the warnings: the core judges points beside such a face as on it, while without it they are beside an edge.
+/// Not where nothing else would be left.
+void leave_trimmed_caps(DesignFile& design);
+
+/// Throws ToolError that lists the faces which could not be read, with their share of the design.
+void refuse_missing(const DesignFile& design, const std::string& file);
+
+}  // namespace bladefit

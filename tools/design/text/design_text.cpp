@@ -1,0 +1,68 @@
+#include "tools/design/text/design_text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <string_view>
+
+#include "tools/files/read_text.hpp"
+#include "tools/files/tool_error.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::uintmax_t kLargest = std::uintmax_t{1} << 28U;
+constexpr std::size_t kHead = 128;
+
+/// What a file begins with that is no STEP and no IGES text, and what to do.
+struct OtherKind {
+  std::string_view head;
+  const char* kind;
+  const char* way;
+};
+constexpr std::array<OtherKind, 8> kOtherKinds = {
+    {{"\x1F\x8B", "compressed (gzip)", "unpack it: gunzip -c FILE > design.stp"},
+     {"PK\x03\x04", "a ZIP archive", "unpack it and give the STEP or IGES file in it"},
+     {"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", "Parasolid", "export the blade as STEP (AP214 or AP242)"},
+     {"3D Geometry File Format", "Rhino 3DM", "export the blade as STEP or IGES"},
+     {"Version 8", "JT", "export the blade as STEP (AP214 or AP242)"},
+     {"Version 9", "JT", "export the blade as STEP (AP214 or AP242)"},
+     {"Version 10", "JT", "export the blade as STEP (AP214 or AP242)"},
+     {"solid ", "an STL mesh", "a mesh has no surface to judge by: export the blade as STEP or IGES"}}};
+
+std::string head_of(const std::filesystem::path& path) {
+  std::string head(kHead, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  return head;
+}
+
+}  // namespace
+
+std::string read_design_text(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status)) {
+    throw ToolError(fmt::format("{}: is a device, not a design; give a STEP or IGES file", path.string()));
+  }
+  if (std::filesystem::is_regular_file(status)) {
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (!error && size > kLargest) {
+      throw ToolError(fmt::format("{}: {} MB are more than a design has ({} MB at most); export the blade alone",
+                                  path.string(), size >> 20U, kLargest >> 20U));
+    }
+    const std::string head = head_of(path);
+    for (const OtherKind& other : kOtherKinds) {
+      if (head.compare(0, other.head.size(), other.head) != 0) continue;
+      throw ToolError(fmt::format("{}: is {}; {}", path.string(), other.kind, other.way));
+    }
+    if (!head.empty() && head.find_first_not_of('\0') == std::string::npos) {
+      throw ToolError(fmt::format("{}: the file begins with zeros: it is no design; export it again", path.string()));
+    }
+  }
+  return read_text(path);
+}
+
+}  // namespace bladefit
