@@ -23,6 +23,11 @@ char lower(char character) { return static_cast<char>(std::tolower(static_cast<u
 /// Marks behind a number that tell its unit, in lower case, a longer one before its beginning.
 constexpr std::array<std::string_view, 5> kUnitMarks = {word_of(Unit::mm), "inch", word_of(Unit::inch), "\"", "''"};
 
+/// The unit that has this size.
+std::string_view unit_word(double mm) {
+  return kUnitWords[static_cast<std::size_t>(std::ranges::find(kMmPerUnit, mm) - kMmPerUnit.begin())];
+}
+
 class LineParser {
  public:
   LineParser(std::string_view text, const DroSettings& settings) : rest_(text), settings_(settings) {}
@@ -167,9 +172,8 @@ Failure LineParser::take_marks(std::size_t axis, DroNumber& number) {
     if (mark != kUnitMarks.end()) {
       const Unit unit = parse_unit(*mark).value();
       if (mm_per_unit(unit) != settings_.mm_per_unit) {
-        return bad_input(
-            fmt::format("{} is marked {}, but units are others (set units = \"{}\", or switch the read-out)",
-                        axis_letter(axis), *mark, word_of(unit)));
+        return bad_input(fmt::format("{} is marked {}, but units are {} (set units = \"{}\", or switch the read-out)",
+                                     axis_letter(axis), *mark, unit_word(settings_.mm_per_unit), word_of(unit)));
       }
       number.marks += word_of(unit);
       rest_.remove_prefix(mark->size());

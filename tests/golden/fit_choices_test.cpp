@@ -116,7 +116,7 @@ TEST_F(FitChoices, WrongOnesAreRefused) {
   expect_refusal({"--ratio", "nan", "--tolerance", "1"}, {"--ratio: nan", "give a number from 1 to"});
   expect_refusal({"--tolerance", "1e300"}, {"--tolerance: 1e+300", "give one above 0"});
   expect_refusal({"--probe-radius", "1e308", "--units", "in"}, {"--probe-radius: 1e+308", "give 0 or more"});
-  expect_refusal({"--subset", scratch("")}, {"is a folder; name the subset file in it"});
+  expect_refusal({"--subset", scratch("")}, {"is a folder; name a file in it (the subset)"});
   expect_refusal({"--loss", "cauchy"}, {"--loss: 'cauchy'", "none, huber, tukey"});
   expect_refusal({"--loss-scale", "1"}, {"--loss-scale", "add --loss"});
   expect_refusal({"--loss", "huber", "--mode", "minimax"}, {"--loss huber", "least_squares"});

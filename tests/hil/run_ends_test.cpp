@@ -80,10 +80,13 @@ TEST(RunEnds, WithTheResultWhenNobodyReadsItsOutput) {
   EXPECT_NE(run.err().find("the summary cannot be written"), std::string::npos) << run.err();
 }
 
-/// A limit on the size of files stands for a full disk: the journal and verdicts.csv are below it, result.json is not.
+/// A limit on the size of files stands for a full disk: the design, the journal and verdicts.csv are below it,
+/// result.json is not.
 TEST(RunEnds, EveryOtherFileAndTheSummaryAreWrittenOnAFullDisk) {
   const ScratchFolder scratch;
-  Process run({"bash", "-c", "ulimit -f 64; exec " + joined(replay(scratch))});
+  Process run({"bash", "-c",
+               "ulimit -f 500; exec " + joined(run_options("replay:" + kAllPoints, scratch / "session",
+                                                           scratch / "result.json", {"--headless"}))});
   EXPECT_EQ(run.exit_code(), 3) << run.err();
   EXPECT_NE(run.err().find("result.json: cannot be written"), std::string::npos) << run.err();
   EXPECT_NE(run.out().find("Verdict: "), std::string::npos) << run.out();

@@ -12,7 +12,6 @@
 namespace bladefit {
 namespace {
 
-constexpr std::uintmax_t kLargest = std::uintmax_t{1} << 28U;
 constexpr std::size_t kHead = 128;
 
 /// What a file begins with that is no STEP and no IGES text, and what to do.
@@ -43,16 +42,7 @@ std::string head_of(const std::filesystem::path& path) {
 
 std::string read_design_text(const std::filesystem::path& path) {
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status)) {
-    throw ToolError(fmt::format("{}: is a device, not a design; give a STEP or IGES file", path.string()));
-  }
-  if (std::filesystem::is_regular_file(status)) {
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (!error && size > kLargest) {
-      throw ToolError(fmt::format("{}: {} MB are more than a design has ({} MB at most); export the blade alone",
-                                  path.string(), size >> 20U, kLargest >> 20U));
-    }
+  if (std::filesystem::is_regular_file(path, error)) {
     const std::string head = head_of(path);
     for (const OtherKind& other : kOtherKinds) {
       if (head.compare(0, other.head.size(), other.head) != 0) continue;
