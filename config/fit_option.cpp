@@ -15,8 +15,7 @@ namespace {
 using S = FitSettings;
 using C = LocalizerConfig;
 
-constexpr double kLargest = 1e9;     ///< accepted length [units] or ratio
-constexpr std::size_t kWidth = 100;  ///< columns of a comment in the shipped file
+constexpr double kLargest = 1e9;  ///< accepted length [units] or ratio
 
 constexpr NumberOption length_above_0(std::optional<double> S::*value) { return {value, 0, kLargest, true}; }
 
@@ -161,23 +160,6 @@ constexpr std::array kOptions{
               "R of r/R, in units (default: the greatest distance of the design's surface from the axis)", "152.4"},
 };
 
-/// A comment of whole words, at most kWidth columns wide where they allow it.
-std::string comment(std::string_view text) {
-  std::string out = "#";
-  std::size_t column = 1;
-  while (!text.empty()) {
-    const std::string_view word = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(text.size(), word.size() + 1));
-    if (column > 1 && column + 1 + word.size() > kWidth) {
-      out += "\n#";
-      column = 1;
-    }
-    out += fmt::format(" {}", word);
-    column += 1 + word.size();
-  }
-  return out + "\n";
-}
-
 }  // namespace
 
 Failure set(const NumberOption& option, double given, FitSettings& settings) {
@@ -291,17 +273,6 @@ void apply_fit_options(const FitSettings& settings, double mm_per_unit, Localize
     const bool given = std::visit([&](const auto& kind) { return (settings.*kind.value).has_value(); }, option.kind);
     if (given && option.apply != nullptr) option.apply(settings, mm_per_unit, config);
   }
-}
-
-std::string fit_toml() {
-  std::string text =
-      "# Fit options for `bladefit localize --config FILE`. Flags on the command line win over them. Every key may be "
-      "left out.\n[fit]\n";
-  for (const FitOption& option : kOptions) {
-    text += "\n" + comment(option.help);
-    text += fmt::format("{}{} = {}\n", option.active ? "" : "# ", option.key, option.example);
-  }
-  return text;
 }
 
 }  // namespace bladefit

@@ -149,7 +149,4 @@ struct FitOption {
 /// check_config().
 void apply_fit_options(const FitSettings& settings, double mm_per_unit, LocalizerConfig& config);
 
-/// The text of the shipped config/fit.toml: each option with its help, its value or an example of one.
-[[nodiscard]] std::string fit_toml();
-
 }  // namespace bladefit

@@ -13,7 +13,7 @@ namespace bladefit {
 namespace {
 
 constexpr std::size_t kLongestNumber = 64;
-constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kLineBlanks = " \t";
 constexpr std::string_view kAxisLetters = "xyz";
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
@@ -144,7 +144,7 @@ Failure LineParser::take_number(std::size_t axis, DroNumber& number) {
   const bool negative = peek() == '-';
   if (has_sign) {
     rest_.remove_prefix(1);
-    number.pad += skip(kBlanks);
+    number.pad += skip(kLineBlanks);
   }
   const std::string digits = take_digits(number);
   number.width = number.pad + (has_sign ? 1U : 0U) + digits.size();

@@ -65,10 +65,6 @@ Failure ModbusSource::open(std::uint32_t after, std::uint32_t run_id) {
   return {};
 }
 
-std::size_t ModbusSource::poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) {
-  return ring_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
-}
-
 /// Goes on with whatever is under way. Returns as soon as something has changed, at `until` at the latest.
 void ModbusSource::step(Clock::time_point until) {
   if (ring_.stopped()) {

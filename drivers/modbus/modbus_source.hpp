@@ -22,7 +22,9 @@ class ModbusSource final : public ProbeSource {
 
   /// Takes at most about the connect timeout and ten reply timeouts. A link that breaks meanwhile is made again.
   [[nodiscard]] Failure open(std::uint32_t after, std::uint32_t run_id) override;
-  [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override;
+  [[nodiscard]] std::size_t poll(std::span<ProbePoint> points, std::chrono::milliseconds timeout) override {
+    return ring_.points().wait_and_take(points, timeout, [this](Clock::time_point until) { step(until); });
+  }
   void acknowledge(std::uint32_t sequence) override { acknowledgement_.store(sequence); }
   void close() override;
   [[nodiscard]] const SourceStatus& status() const override { return status_; }

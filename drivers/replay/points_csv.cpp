@@ -36,7 +36,7 @@ Failure parse_path(const CsvRow& row, ProbePoint& point) {
   if (cell.empty()) return {};
   const std::optional<std::uint16_t> path = parse_whole<std::uint16_t>(cell);
   if (!path)
-    return bad_input(row.place.say(fmt::format("column path: {} is not a whole number 0..65535", quoted(cell))));
+    return bad_input(row.place.say(fmt::format("column path: {} is not a whole number 0..65535", in_quotes(cell))));
   point.path = *path;
   return {};
 }
@@ -48,7 +48,7 @@ Failure parse_weight(const CsvRow& row, ProbePoint& point) {
   if (point.weight >= 1 / kLargestWeight && point.weight <= kLargestWeight) return {};
   return bad_input(
       row.place.say(fmt::format("column weight: {} is not a number from {:g} to {:g}; leave points out by --subset",
-                                quoted(cell), 1 / kLargestWeight, kLargestWeight)));
+                                in_quotes(cell), 1 / kLargestWeight, kLargestWeight)));
 }
 
 Failure parse_position(const CsvRow& row, double mm_per_unit, ProbePoint& point) {
@@ -58,7 +58,7 @@ Failure parse_position(const CsvRow& row, double mm_per_unit, ProbePoint& point)
     point.position[column] = value * mm_per_unit;
     if (std::abs(point.position[column]) <= kLargestCoordinate) continue;
     return bad_input(row.place.say(fmt::format("column {}: {} is beyond {:g} mm; correct it, or its unit",
-                                               kColumns[column], quoted(row.values[column]), kLargestCoordinate)));
+                                               kColumns[column], in_quotes(row.values[column]), kLargestCoordinate)));
   }
   return {};
 }
@@ -121,7 +121,7 @@ Failure check_point_columns(std::string_view columns) {
   CsvHeader header;
   if (Failure failure = read_names(names_in(columns), format, header)) return failure;
   for (const std::string& name : header.unused) {
-    if (name != "-") return bad_input(fmt::format("{} is no column; {}", quoted(name), kFix));
+    if (name != "-") return bad_input(fmt::format("{} is no column; {}", in_quotes(name), kFix));
   }
   return {};
 }

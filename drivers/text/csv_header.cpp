@@ -71,7 +71,7 @@ Failure check_unit(const ColumnName& name, std::string_view cell) {
   if (name.unknown_unit.empty()) return {};
   return bad_input(
       fmt::format("column {}: {} is no unit that is known here; give mm, cm, m or in, and the lengths in it",
-                  quoted(cell), quoted(name.unknown_unit)));
+                  in_quotes(cell), in_quotes(name.unknown_unit)));
 }
 
 Failure note_column(std::size_t column, const CsvFormat& format, CsvHeader& header) {
@@ -173,7 +173,7 @@ Failure apply_names(std::span<const std::string_view> given, std::span<const std
     if (name.column && name.column != column) {
       return bad_input(
           fmt::format("column {} is {} in the file, but {} in the names that are given; correct one of them", cell + 1,
-                      quoted(own[cell]), quoted(given[cell])));
+                      in_quotes(own[cell]), in_quotes(given[cell])));
     }
     const std::optional<Unit> unit = format.is_length(*column) ? unit_at_end(lower_case(own[cell])) : std::nullopt;
     if (!unit) continue;

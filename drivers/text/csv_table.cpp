@@ -117,8 +117,8 @@ class TableReading {
     word = trimmed(word.substr(0, word.find_last_not_of(",;") + 1));
     const std::optional<Unit> unit = parse_unit(without_brackets(word));
     if (!unit) {
-      return bad_input(
-          fmt::format("the unit {} is not known here; write mm, cm, m or in, or take the comment out", quoted(word)));
+      return bad_input(fmt::format("the unit {} is not known here; write mm, cm, m or in, or take the comment out",
+                                   in_quotes(word)));
     }
     if (rows_ > 0 && header_.unit != unit)
       return bad_input("a unit is given below the first values; put this line above them");
@@ -166,7 +166,7 @@ class TableReading {
       Failure failure = read_names(cells_, format_, header);
       if (!failure || number == cells_.end()) return failure;
       return bad_input(
-          fmt::format("a number, {}, stands where a column's name should; {}", quoted(*number), format_.fix));
+          fmt::format("a number, {}, stands where a column's name should; {}", in_quotes(*number), format_.fix));
     }
     while (cells_.size() > given_.size() && cells_.back().empty()) cells_.pop_back();
     if (cells_.size() != given_.size()) {
@@ -204,9 +204,10 @@ class TableReading {
     std::ranges::fill(row_.values, std::string_view());
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
       if (header_.columns[cell]) row_.values[*header_.columns[cell]] = cells_[cell];
-      if (is_nameless(cell) && !cells_[cell].empty())
-        return bad_input(
-            fmt::format("{} stands in column {}, which has no name; {}", quoted(cells_[cell]), cell + 1, format_.fix));
+      if (is_nameless(cell) && !cells_[cell].empty()) {
+        return bad_input(fmt::format("{} stands in column {}, which has no name; {}", in_quotes(cells_[cell]), cell + 1,
+                                     format_.fix));
+      }
     }
     return {};
   }
@@ -263,7 +264,7 @@ Failure finite_cell(const CsvRow& row, std::size_t column, const CsvFormat& form
       cell.empty() ? "it is empty; write a number" : row.mark->read(cell, row.place.line, value);
   if (wrong.empty()) return {};
   return bad_input(row.place.say(fmt::format("column {}: {}{}{}", format.columns[column],
-                                             cell.empty() ? "" : quoted(cell), cell.empty() ? "" : ": ", wrong)));
+                                             cell.empty() ? "" : in_quotes(cell), cell.empty() ? "" : ": ", wrong)));
 }
 
 }  // namespace bladefit

@@ -34,7 +34,7 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string shown(text.substr(0, kQuotedCharacters));
   // A character of UTF-8 is not cut in two.
   if (text.size() > shown.size()) {
@@ -48,7 +48,7 @@ std::string quoted(std::string_view text) {
 std::string quoted_list(const std::vector<std::string_view>& texts) {
   std::string list;
   for (std::size_t k = 0; k < std::min(texts.size(), kListed); ++k)
-    list += fmt::format("{}{}", k == 0 ? "" : ", ", quoted(texts[k]));
+    list += fmt::format("{}{}", k == 0 ? "" : ", ", in_quotes(texts[k]));
   if (texts.size() > kListed) list += fmt::format(" and {} more", texts.size() - kListed);
   return list;
 }

@@ -21,7 +21,7 @@ struct CsvPlace {
 [[nodiscard]] std::string lower_case(std::string_view text);
 
 /// The first 40 characters of `text` in quotation marks, for messages; what cannot be printed becomes '?'.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// The first six of `texts` in quotation marks, "and 131 more" for the others.
 [[nodiscard]] std::string quoted_list(const std::vector<std::string_view>& texts);

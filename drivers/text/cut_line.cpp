@@ -31,7 +31,7 @@ Failure CutLine::check(const std::vector<std::string_view>& cells, bool ended) {
     return bad_input(fmt::format(
         "the last line has no end, and {} fewer decimals than all before it: the file is cut short; complete the line, "
         "or end it with a line break",
-        quoted(last)));
+        in_quotes(last)));
   }
   same_ = same_ && decimals_.value_or(decimals) == decimals;
   decimals_ = decimals;

@@ -40,7 +40,8 @@ std::vector<ProbePoint> points_of(const ReferenceCase& c, const std::string& sub
 }
 
 std::vector<ProbePoint> thinned(const ReferenceCase& c, std::size_t first, std::size_t stride) {
-  const std::vector<ProbePoint> all = read_points_csv(c.folder / "points.csv", {c.unit == "in" ? Unit::inch : Unit::mm, {}, {}, {}}).points;
+  const std::vector<ProbePoint> all =
+      read_points_csv(c.folder / "points.csv", {c.unit == "in" ? Unit::inch : Unit::mm, {}, {}, {}}).points;
   std::vector<ProbePoint> points;
   for (std::size_t i = first; i < all.size(); i += stride) points.push_back(all[i]);
   return points;

@@ -46,7 +46,7 @@ Pair parse_pair(const CsvRow& row) {
     if (const Failure failure = finite_cell(row, k, kFormat, pair.numbers[k])) throw ToolError(failure);
     if (std::abs(pair.numbers[k]) <= kLargestCoordinate) continue;
     throw ToolError(row.place.say(fmt::format("column {}: {} is beyond {:g}; correct it", kColumns[k],
-                                              quoted(row.values[k]), kLargestCoordinate)));
+                                              in_quotes(row.values[k]), kLargestCoordinate)));
   }
   return pair;
 }

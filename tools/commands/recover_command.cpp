@@ -81,13 +81,13 @@ std::vector<ProbePoint> points_of(const Salvage& salvage) {
 void write_points(const std::string& path, const std::vector<ProbePoint>& points,
                   const std::vector<std::string>& losses) {
   write_output(path, [&](const Put& put) {
-        for (const std::string& loss : losses) put(fmt::format("# {}\n", loss));
-        put("x,y,z,i,j,k,path,weight\n");
-        for (const ProbePoint& point : points) {
-          put(fmt::format("{},{},{},{},{},{},{},{}\n", point.position[0], point.position[1], point.position[2],
-                          point.approach[0], point.approach[1], point.approach[2], point.path, point.weight));
-        }
-      });
+    for (const std::string& loss : losses) put(fmt::format("# {}\n", loss));
+    put("x,y,z,i,j,k,path,weight\n");
+    for (const ProbePoint& point : points) {
+      put(fmt::format("{},{},{},{},{},{},{},{}\n", point.position[0], point.position[1], point.position[2],
+                      point.approach[0], point.approach[1], point.approach[2], point.path, point.weight));
+    }
+  });
 }
 
 void throw_if(const Failure& failure) {

@@ -82,9 +82,8 @@ void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
 /// Keeps the panel of an ended session as long as the settings say, for those who look at it; a signal ends it.
 void linger(const RunPlan& plan, const StopFlag& stop, std::uint16_t port, std::FILE* words) {
   if (plan.linger.count() == 0 || stop.requested()) return;
-  const std::string text =
-      fmt::format("The panel at {}:{} shows the result for {} s; Ctrl-C ends\n", plan.host.panel.host, port,
-                  std::chrono::duration<double>(plan.linger).count());
+  const std::string text = fmt::format("The panel at {}:{} shows the result for {} s; Ctrl-C ends\n",
+                                       plan.host.panel.host, port, std::chrono::duration<double>(plan.linger).count());
   std::fputs(text.c_str(), words);
   std::fflush(words);
   const auto until = std::chrono::steady_clock::now() + plan.linger;
@@ -122,7 +121,7 @@ bool tell_summary(const Words& words, const std::string& text, const RunPlan& pl
   if (told) return true;
   const int reason = errno;
   tell(fmt::format("the summary cannot be written ({}); the result is in {}", std::strerror(reason),
-                  plan.host.session_directory));
+                   plan.host.session_directory));
   const bool given_up = reason == EPIPE || (words.terminal && reason == EIO);
   if (given_up) std::clearerr(words.file);
   return given_up;

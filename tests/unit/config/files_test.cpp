@@ -194,8 +194,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SessionFile, NamesAFileThatCannotBeRead) {
   SessionSettings settings;
-  EXPECT_EQ(load_session("/nonexistent.toml", settings).message,
-            "/nonexistent.toml: no such file; check the name");
+  EXPECT_EQ(load_session("/nonexistent.toml", settings).message, "/nonexistent.toml: no such file; check the name");
   EXPECT_EQ(load_session("/tmp", settings).message, "/tmp: is a folder; name a file in it");
   EXPECT_NE(load_session("/dev/zero", settings).message.find("is a device"), std::string::npos);
 }

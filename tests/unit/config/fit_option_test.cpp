@@ -11,6 +11,8 @@
 #include <sstream>
 #include <string>
 
+#include "config/fit_toml.hpp"
+
 namespace bladefit {
 namespace {
 

@@ -16,12 +16,12 @@
 #include <array>
 #include <map>
 
-#include "tools/design/text/design_text.hpp"
 #include "tools/design/iges/iges_clean.hpp"
 #include "tools/design/occ/cad_session.hpp"
 #include "tools/design/occ/design_faces.hpp"
 #include "tools/design/occ/memory_file.hpp"
 #include "tools/design/occ/transferred_faces.hpp"
+#include "tools/design/text/design_text.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -86,6 +86,7 @@ std::string list_types(const CleanIges& iges) {
   std::map<int, int> counts;
   for (const IgesEntity& entity : iges.entities) ++counts[entity.type];
   std::vector<std::string> list;
+  list.reserve(counts.size());
   for (const auto& [type, count] : counts) list.push_back(fmt::format("{} x {}", count, type));
   return list.empty() ? "none" : fmt::format("{}", fmt::join(list, ", ")).substr(0, 120);
 }

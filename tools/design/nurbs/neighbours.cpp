@@ -62,6 +62,7 @@ std::optional<double> gap(const Edge& edge, const Outline& other, double reach_m
 
 std::vector<Neighbours> find_neighbours(const std::vector<NurbsSurface>& surfaces, double reach_mm) {
   std::vector<Outline> outlines;
+  outlines.reserve(surfaces.size());
   for (const NurbsSurface& surface : surfaces) outlines.push_back(outline_of(surface));
   std::vector<Neighbours> found;
   for (std::size_t a = 0; a < outlines.size(); ++a) {

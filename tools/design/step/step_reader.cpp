@@ -14,7 +14,6 @@
 #include <set>
 #include <sstream>
 
-#include "tools/design/text/design_text.hpp"
 #include "tools/design/occ/cad_session.hpp"
 #include "tools/design/occ/design_faces.hpp"
 #include "tools/design/occ/transferred_faces.hpp"
@@ -22,6 +21,7 @@
 #include "tools/design/step/step_model.hpp"
 #include "tools/design/step/step_text.hpp"
 #include "tools/design/step/step_unit.hpp"
+#include "tools/design/text/design_text.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -66,6 +66,7 @@ std::string list_types(const StepData_StepModel& model) {
     if (type.find("Surface") != std::string::npos || type.find("Solid") != std::string::npos) ++counts[type];
   }
   std::vector<std::string> list;
+  list.reserve(counts.size());
   for (const auto& [type, count] : counts) list.push_back(fmt::format("{} x {}", count, type));
   return list.empty() ? "none" : fmt::format("{}", fmt::join(list, ", ")).substr(0, 120);
 }

@@ -1,0 +1,45 @@
+#include "config/fit_toml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "config/fit_option.hpp"
+
+namespace bladefit {
+namespace {
+
+constexpr std::size_t kWidth = 100;  ///< columns of a comment
+
+/// A comment of whole words, at most kWidth columns wide where they allow it.
+std::string comment(std::string_view text) {
+  std::string out = "#";
+  std::size_t column = 1;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(text.size(), word.size() + 1));
+    if (column > 1 && column + 1 + word.size() > kWidth) {
+      out += "\n#";
+      column = 1;
+    }
+    out += fmt::format(" {}", word);
+    column += 1 + word.size();
+  }
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string fit_toml() {
+  std::string text =
+      "# Fit options for `bladefit localize --config FILE`. Flags on the command line win over them. Every key may be "
+      "left out.\n[fit]\n";
+  for (const FitOption& option : fit_options()) {
+    text += "\n" + comment(option.help);
+    text += fmt::format("{}{} = {}\n", option.active ? "" : "# ", option.key, option.example);
+  }
+  return text;
+}
+
+}  // namespace bladefit
