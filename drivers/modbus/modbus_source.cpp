@@ -127,7 +127,7 @@ bool ModbusSource::begin_write() {
   return false;
 }
 
-/// A device that numbers anew must not be told that records which it has yet to measure are stored.
+/// A device that numbers again must not be told that records which it has yet to measure are stored.
 bool ModbusSource::may_acknowledge() const {
   if (ring_.knows(acknowledgement_.stored()))
     return stage_ == Stage::announce || (stage_ == Stage::running && acknowledgement_.is_due());

@@ -48,16 +48,17 @@ void RingReader::observe(const CmmHeader& header) {
   note_last(header);
 }
 
-/// A newest record older than one that was taken: the device has begun to number anew and has not said so by its run
+/// A newest record older than one that was taken: the device has begun to number again and has not said so by its run
 /// id. Its records would be taken for those of the blade before.
 bool RingReader::goes_back(const CmmHeader& header) {
   const bool older = header.newest != 0 && header.newest < floor_;
   seen_.going_back = older ? seen_.going_back + 1 : 0;
   if (seen_.going_back < kHeadersForRestart) return older;
   stopped_ = true;
-  const char* const why = taken_ == std::numeric_limits<std::uint32_t>::max()
-                              ? "there is no number beyond that"
-                              : "it has begun to number its records anew, and its run id has not changed";
+  const char* const why =
+      taken_ == std::numeric_limits<std::uint32_t>::max()
+          ? "there is no number beyond that"
+          : "it has begun to number its records from the beginning again, and its run id has not changed";
   note_stop(status_, fmt::format("the device's newest record is {} although record {} was read before: {}; start a "
                                  "session in another folder for the new records",
                                  header.newest, taken_, why));

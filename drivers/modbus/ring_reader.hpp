@@ -73,7 +73,7 @@ class RingReader {
   std::optional<CmmHeader> previous_;  ///< the header before this one
   std::uint64_t next_ = 1;
   std::uint32_t taken_ = 0;   ///< last record that was good
-  std::uint32_t floor_ = 0;   ///< the device's newest record is not older, or it numbers anew
+  std::uint32_t floor_ = 0;   ///< the device's newest record is not older, or it numbers again
   std::uint32_t newest_ = 0;  ///< as the last header has it, whether it is believed or not
   int tries_ = 0;             ///< how often the record next_ was found damaged
   /// How many headers in a row say so.

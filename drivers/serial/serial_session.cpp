@@ -114,13 +114,13 @@ void SerialSession::end_named(std::uint32_t last, Clock::time_point now) {
   }
 }
 
-/// The program of a device that numbers its records anew ends before those of the blade before. Once may be an older
+/// The program of a device that numbers its records again ends before those of the blade before. Once may be an older
 /// line.
 void SerialSession::older_end_named(std::uint32_t last) {
   if (++older_ends_ < kOlderEndsToStop) return;
   status_.stopped = fmt::format(
       "the device's program ends with record {} although record {} was read before: it has begun to number its records "
-      "anew, and its run id has not changed; start a session in another folder for the new records",
+      "again, and its run id has not changed; start a session in another folder for the new records",
       last, records_.next() - 1);
   stop(status_.stopped);
 }

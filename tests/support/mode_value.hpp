@@ -6,7 +6,8 @@
 
 namespace bladefit::testing {
 
-/// The objective of a mode by its definition (tests/data/README.md), over chosen points, with every foot searched anew.
+/// The objective of a mode by its definition (tests/data/README.md), over chosen points, with every foot searched
+/// again.
 class ModeValue {
  public:
   /// `points`: those that count. Minimax and range take them alike, the others by the region of their foot.

@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::array<std::string_view, 7> kColumns = {"x", "y", "z", "design_x", "design_y", "design_z", "name"};
 constexpr std::size_t kNameColumn = 6;
-constexpr std::string_view kMend = "the first line must name the columns: [name,]x,y,z,design_x,design_y,design_z";
+constexpr std::string_view kFix = "the first line must name the columns: [name,]x,y,z,design_x,design_y,design_z";
 constexpr CsvFormat kFormat{
-    .columns = kColumns, .needed = kNameColumn, .together = 0, .first_length = 0, .lengths = kNameColumn, .fix = kMend};
+    .columns = kColumns, .needed = kNameColumn, .together = 0, .first_length = 0, .lengths = kNameColumn, .fix = kFix};
 /// No place on a machine is farther away, whatever the unit.
 constexpr double kLargestCoordinate = 1e9;
 /// Pairs whose rests are this share of their spread, in root mean squares, do not belong together: marks are picked to

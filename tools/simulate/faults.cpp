@@ -26,24 +26,24 @@ Number parse_number(std::string_view item, std::string_view text, std::string_vi
 }
 
 double parse_probability(std::string_view item, std::string_view text) {
-  constexpr std::string_view kMend = "needs a probability from 0 to 1, for example drop=0.01";
-  const auto probability = parse_number<double>(item, text, kMend);
-  if (!(probability >= 0 && probability <= 1)) refuse(item, kMend);
+  constexpr std::string_view kFix = "needs a probability from 0 to 1, for example drop=0.01";
+  const auto probability = parse_number<double>(item, text, kFix);
+  if (!(probability >= 0 && probability <= 1)) refuse(item, kFix);
   return probability;
 }
 
 /// "0.05:200ms" sets the probability and the time; "0.05" the probability alone.
 void parse_delay(std::string_view item, std::string_view text, FaultSettings& settings) {
-  constexpr std::string_view kMend =
+  constexpr std::string_view kFix =
       "needs PROBABILITY:TIMEms with a time from 0 to 60000 ms, for example delay=0.05:200ms";
   const std::size_t colon = text.find(':');
   settings.delay = parse_probability(item, text.substr(0, colon));
   if (colon == std::string_view::npos) return;
   std::string_view time = text.substr(colon + 1);
-  if (!time.ends_with("ms")) refuse(item, kMend);
+  if (!time.ends_with("ms")) refuse(item, kFix);
   time.remove_suffix(2);
-  const auto milliseconds = parse_number<double>(item, time, kMend);
-  if (!(milliseconds >= 0 && milliseconds <= kLongestDelayMs)) refuse(item, kMend);
+  const auto milliseconds = parse_number<double>(item, time, kFix);
+  if (!(milliseconds >= 0 && milliseconds <= kLongestDelayMs)) refuse(item, kFix);
   settings.delay_time = std::chrono::nanoseconds(static_cast<std::int64_t>(milliseconds * 1e6));
 }
 

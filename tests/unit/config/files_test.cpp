@@ -113,7 +113,7 @@ void expect_error(const BadFile& bad, const Load& load) {
 
 class DeviceErrors : public ::testing::TestWithParam<BadFile> {};
 
-TEST_P(DeviceErrors, NameFileLineKeyAndMend) {
+TEST_P(DeviceErrors, NameFileLineKeyAndFix) {
   expect_error(GetParam(), [](const std::string& path) {
     ModbusSettings before;
     before.unit = 77;
@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class SessionErrors : public ::testing::TestWithParam<BadFile> {};
 
-TEST_P(SessionErrors, NameFileLineKeyAndMend) {
+TEST_P(SessionErrors, NameFileLineKeyAndFix) {
   expect_error(GetParam(), [](const std::string& path) {
     SessionSettings settings;
     return load_session(path, settings);

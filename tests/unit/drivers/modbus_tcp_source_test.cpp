@@ -59,7 +59,7 @@ TEST(ModbusTcp, GoesOnAfterAsManyBadRecordsAsTheRingHolds) {
   EXPECT_EQ(machine.registers.holding(1), kCapacity);
 }
 
-TEST(ModbusTcp, ADeviceThatNumbersAnewIsToldOfNoRecordBeyondItsOwn) {
+TEST(ModbusTcp, ADeviceThatNumbersAgainIsToldOfNoRecordBeyondItsOwn) {
   TcpMachine machine;
   machine.registers.probe(8);
   const auto source = make_source(machine.settings());

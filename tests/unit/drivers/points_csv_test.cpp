@@ -52,7 +52,7 @@ struct BadFile {
 
 class PointsCsvErrors : public testing::TestWithParam<BadFile> {};
 
-TEST_P(PointsCsvErrors, NameFileLineColumnAndMend) {
+TEST_P(PointsCsvErrors, NameFileLineColumnAndFix) {
   const PointsFile file = parse_points_csv(GetParam().text, "a.csv", {});
   EXPECT_TRUE(file.points.empty());
   EXPECT_NE(file.error.message.find(GetParam().error), std::string::npos) << file.error.message;

@@ -49,7 +49,7 @@ TEST(HostFaults, ASourceThatCannotGoOnEndsTheSessionWithWhatIsStored) {
   const ScratchFolder folder;
   ScriptedSource source(measured_points(50));
   source.stop_after = 20;
-  source.stopped = "the numbers begin anew";
+  source.stopped = "the numbers begin again";
   const SessionResult result = result_of_session(settings_for(folder / "session"), source);
   EXPECT_EQ(result.error.kind, Failure::Kind::device);
   EXPECT_EQ(result.error.message, source.stopped);
