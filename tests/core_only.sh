@@ -19,7 +19,7 @@ mkdir -p "$scratch/tree"
 cp -r CMakeLists.txt CMakePresets.json core firmware_bridge "$scratch/tree"
 rm -r "$scratch/tree/firmware_bridge/host"
 cd "$scratch/tree"
-cmake --preset core -B "$scratch/build" -DCMAKE_CXX_FLAGS_RELEASE="-O1 -DNDEBUG" "${without[@]}" >"$scratch/log" 2>&1 || { cat "$scratch/log" && exit 1; }
+cmake --preset core -B "$scratch/build" -DCMAKE_CXX_FLAGS_RELEASE="-O0 -DNDEBUG" "${without[@]}" >"$scratch/log" 2>&1 || { cat "$scratch/log" && exit 1; }
 cmake --build "$scratch/build" --target bladefit >"$scratch/log" 2>&1 || { cat "$scratch/log" && exit 1; }
 archives=("$scratch/build/firmware_bridge/libbladefit.a" "$scratch/build/core/libbladefit_core.a")
 

@@ -10,7 +10,6 @@
 namespace bladefit {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Proximal points; one or two are usual.
 constexpr int kMaxPasses = 20;
@@ -81,7 +80,7 @@ class Solver {
     for (int k = 0; k < std::min(warm.count, kMaxVariables); ++k) {
       const ActiveSet::Entry& entry = warm.entries[static_cast<std::size_t>(k)];
       const HalfSpace h = half_space(constraints_, entry.index, entry.side);
-      if (h.offset > -kInfinity) set_.append({entry.index, entry.side}, normal_of(h), offset_of(h));
+      if (h.offset > -kUnbounded) set_.append({entry.index, entry.side}, normal_of(h), offset_of(h));
     }
     const double g = gradient_.norm();
     if (hessian_ || !(g > 0.0)) return;
@@ -91,7 +90,7 @@ class Solver {
       const Violations::Entry& entry = waiting_.entries[static_cast<std::size_t>(k)];
       distance = std::max(distance, entry.amount / entry.half_space.normal.norm());
     }
-    const bool measured = distance > 0.0 && distance < kInfinity;
+    const bool measured = distance > 0.0 && distance < kUnbounded;
     step_ = (measured ? kFirstStep * distance : 1.0 + centre_.norm()) / g;
   }
 
@@ -168,9 +167,9 @@ class Solver {
     for (int k = 0; k <= kMaxVariables; ++k) {
       const WorkingSet::Split split = set_.split(normal);
       const double slope = split.rest.squaredNorm();
-      const double full = slope > 0.0 ? std::max(0.0, offset - normal.dot(now_.y)) / slope : kInfinity;
+      const double full = slope > 0.0 ? std::max(0.0, offset - normal.dot(now_.y)) / slope : kUnbounded;
       const WorkingSet::Ratio partial = set_.first_to_leave(now_.multipliers, split.coefficients, normal.norm());
-      if (full == kInfinity && partial.member < 0) return certify(member, split.coefficients);
+      if (full == kUnbounded && partial.member < 0) return certify(member, split.coefficients);
       if (full <= partial.step) {
         if (!set_.append(member, normal, offset)) return Status::precision_limit;
         ++changes_;

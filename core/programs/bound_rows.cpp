@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace bladefit {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 void BoundRows::attach(double* memory, std::uint32_t capacity) {
   memory_ = memory;
@@ -35,14 +30,14 @@ void BoundRows::set(std::uint32_t i, const Vec6& gradient, double distance, doub
 
 void BoundRows::skip(std::uint32_t i) {
   for (int k = 0; k < 6; ++k) column(k)[i] = 0.0;
-  column(kLower)[i] = -kInfinity;
-  column(kUpper)[i] = kInfinity;
+  column(kLower)[i] = -kUnbounded;
+  column(kUpper)[i] = kUnbounded;
 }
 
 double BoundRows::distance(std::uint32_t i) const { return -0.5 * (column(kLower)[i] + column(kUpper)[i]); }
 
 BoundRows::Extremes BoundRows::extremes() const {
-  Extremes out{kInfinity, -kInfinity};
+  Extremes out{kUnbounded, -kUnbounded};
   for (std::uint32_t i = 0; i < count_; ++i) {
     const double d = distance(i);
     if (std::isnan(d)) continue;
@@ -70,7 +65,7 @@ double BoundRows::violation() const {
 void BoundRows::set_limit(std::uint32_t k, double value, const Vec6& gradient) {
   const std::uint32_t row = count_ + k;
   for (int j = 0; j < 6; ++j) column(j)[row] = gradient[j];
-  column(kLower)[row] = -kInfinity;
+  column(kLower)[row] = -kUnbounded;
   column(kUpper)[row] = -value;
 }
 

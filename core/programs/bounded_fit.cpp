@@ -16,8 +16,6 @@ constexpr double kTrustAnew = 1e-2;
 /// A merit may rise by this share and still count as the same.
 constexpr double kMeritRounding = 1e-12;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double sign_of(const ActiveSet::Entry& entry) { return entry.side == Side::upper ? 1.0 : -1.0; }
 
 }  // namespace
@@ -70,7 +68,7 @@ double BoundedFit::value() const {
 
 double BoundedFit::slack(std::uint32_t i) const {
   const double d = rows_.distance(i);
-  if (std::isnan(d)) return kInfinity;
+  if (std::isnan(d)) return kUnbounded;
   if (mode_ == FitMode::minimax) return value() - std::abs(d);
   if (mode_ != FitMode::range) return value() - std::abs(d) / rows_.weight(i);
   const BoundRows::Extremes found = rows_.extremes();

@@ -6,7 +6,6 @@
 namespace bladefit {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kBlock = 64;
 using Block = std::array<double, kBlock>;
 
@@ -35,8 +34,8 @@ void gaps(const ConstraintRows& rows, const Vec8& x, int first, int count, Gaps&
   for (int j = 0; j < rows.width; ++j) {
     add_multiple(value, rows.coefficients + j * rows.stride + first, x[j], count);
   }
-  out.lower.fill(-kInfinity);
-  out.upper.fill(-kInfinity);
+  out.lower.fill(-kUnbounded);
+  out.upper.fill(-kUnbounded);
   const double* weight = rows.weight ? rows.weight + first : nullptr;
   const int leveled = std::clamp(rows.count - rows.plain - first, 0, count);
   const auto n = static_cast<std::size_t>(count);
@@ -106,7 +105,7 @@ HalfSpace half_space(const Constraints& constraints, int index, Side side) {
   const int of_level = side == Side::lower ? rows.lower_level : rows.upper_level;
   if (of_level >= 0 && index < rows.count - rows.plain) out.normal[of_level] += rows.weight ? rows.weight[index] : 1.0;
   const double* bound = side == Side::lower ? rows.lower : rows.upper;
-  out.offset = bound ? sign * bound[index] : -kInfinity;
+  out.offset = bound ? sign * bound[index] : -kUnbounded;
   return out;
 }
 
@@ -116,7 +115,7 @@ bool recedes(const Constraints& constraints, const Vec8& direction, double round
     for (const Side side : {Side::lower, Side::upper}) {
       const HalfSpace h = half_space(constraints, i, side);
       const double least = -rounding * h.normal.norm() * direction.norm();
-      if (h.offset > -kInfinity && h.normal.dot(direction) < least) return false;
+      if (h.offset > -kUnbounded && h.normal.dot(direction) < least) return false;
     }
   }
   return true;
@@ -141,18 +140,19 @@ RowMagnitudes magnitudes(const Constraints& constraints) {
     doubt += summary.doubt;
     return summary.largest;
   };
-  for (int j = 0; j < rows.width; ++j) out.largest[j] = take(rows.coefficients + j * rows.stride, kInfinity, kInfinity);
-  const double weight = rows.weight ? take(rows.weight, kInfinity, kInfinity) : 1.0;
-  take(rows.lower, kInfinity, 0.0);
-  take(rows.upper, 0.0, kInfinity);
+  for (int j = 0; j < rows.width; ++j)
+    out.largest[j] = take(rows.coefficients + j * rows.stride, kUnbounded, kUnbounded);
+  const double weight = rows.weight ? take(rows.weight, kUnbounded, kUnbounded) : 1.0;
+  take(rows.lower, kUnbounded, 0.0);
+  take(rows.upper, 0.0, kUnbounded);
   for (const int l : {rows.lower_level, rows.upper_level}) {
     if (l >= 0) out.largest[l] += weight;
   }
   out.usable = doubt == 0.0;
   for (int j = 0; j < constraints.variables; ++j) {
-    const bool bounded = constraints.lower[j] > -kInfinity || constraints.upper[j] < kInfinity;
+    const bool bounded = constraints.lower[j] > -kUnbounded || constraints.upper[j] < kUnbounded;
     out.largest[j] = larger(out.largest[j], bounded ? 1.0 : 0.0);
-    out.usable = out.usable && constraints.lower[j] < kInfinity && constraints.upper[j] > -kInfinity;
+    out.usable = out.usable && constraints.lower[j] < kUnbounded && constraints.upper[j] > -kUnbounded;
   }
   return out;
 }

@@ -11,6 +11,9 @@ inline constexpr int kMaxVariables = 8;
 using Vec8 = Eigen::Matrix<double, kMaxVariables, 1, Eigen::DontAlign>;
 using Mat8 = Eigen::Matrix<double, kMaxVariables, kMaxVariables, Eigen::DontAlign>;
 
+/// A bound or a step that nothing limits.
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
 enum class Side : std::uint8_t { lower, upper };
 
 /// Two-sided linear constraints in the caller's memory, column by column so that a pass over all rows streams and

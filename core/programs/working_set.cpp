@@ -6,7 +6,7 @@ namespace bladefit {
 namespace {
 
 /// A rest this small against the whole is rounding.
-constexpr double kRounding = 1e-13;
+constexpr double kNoRest = 1e-13;
 /// A coefficient this small would leave a factor that is mostly rounding.
 constexpr double kLeastPivot = 1e-12;
 
@@ -50,7 +50,7 @@ WorkingSet::Projection WorkingSet::project(const Vec8& vector) const {
       out.rest -= part * q_.col(k);
     }
   }
-  if (size_ == kMaxVariables || !(out.rest.norm() > kRounding * vector.norm())) out.rest.setZero();
+  if (size_ == kMaxVariables || !(out.rest.norm() > kNoRest * vector.norm())) out.rest.setZero();
   return out;
 }
 

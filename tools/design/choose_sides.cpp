@@ -12,15 +12,15 @@
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kListed = 5;
+constexpr std::size_t kListedFaces = 5;
 
 /// "0 (UPPER), 3 and 12 more".
 std::string list_of(const DesignFile& design, const std::vector<std::size_t>& faces) {
   std::string list;
-  for (std::size_t k = 0; k < std::min(faces.size(), kListed); ++k) {
+  for (std::size_t k = 0; k < std::min(faces.size(), kListedFaces); ++k) {
     list += (k == 0 ? "" : ", ") + face_title(design, faces[k]);
   }
-  return faces.size() > kListed ? fmt::format("{} and {} more", list, faces.size() - kListed) : list;
+  return faces.size() > kListedFaces ? fmt::format("{} and {} more", list, faces.size() - kListedFaces) : list;
 }
 
 /// The side to which a face looks by its file: that of Su x Sv or the other.

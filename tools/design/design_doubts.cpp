@@ -11,8 +11,8 @@ namespace bladefit {
 namespace {
 
 /// Bounds that leave out less than this share of their box are as good as the box.
-constexpr double kWhole = 0.995;
-constexpr std::size_t kListed = 4;
+constexpr double kUncut = 0.995;
+constexpr std::size_t kListedCuts = 4;
 constexpr double kSmallest_mm = 10, kLargest_mm = 20000;
 /// A sliver is narrower than this part of the design, in mean width.
 constexpr double kSliver = 1e-5;
@@ -44,11 +44,11 @@ std::string trim_warning(const DesignFile& design, const std::string& file) {
   std::string list;
   std::size_t count = 0;
   for (const DesignFace& face : design.faces) {
-    if (face.share >= kWhole || ++count > kListed) continue;
+    if (face.share >= kUncut || ++count > kListedCuts) continue;
     list += fmt::format("{}{}: {:.0f} %", count == 1 ? "" : ", ", title(face), 100 * (1 - face.share));
   }
   if (count == 0) return {};
-  if (count > kListed) list += fmt::format(" and {} more", count - kListed);
+  if (count > kListedCuts) list += fmt::format(" and {} more", count - kListedCuts);
   return fmt::format(
       "{}: trimmed faces are used up to the (u, v) box of their trim, points beyond it are judged as well; "
       "left out by the trim, but used: {}",

@@ -12,7 +12,7 @@ namespace {
 
 using Regions = ModeProgram::Regions;
 
-constexpr double kOnEdgeOfBlade = 0.5, kOnRest = 0.01;  ///< u of feet in the box of the leading edge and outside of it
+constexpr double kInTheBox = 0.5, kOutOfTheBox = 0.01;  ///< u of feet in the box of the leading edge and outside of it
 
 LocalizerConfig program_config(FitMode mode, RegionPolicy regions, double leading_edge) {
   LocalizerConfig config = config_of(read_case("dtmb4119"), 4);
@@ -33,7 +33,7 @@ struct Programmed {
         program(parts->problem, parts->plan) {
     program.attach(rows.data(), 4);
     for (const std::uint32_t sequence : {1U, 2U}) parts->store.append(numbered(sequence));
-    put(kOnEdgeOfBlade, kOnRest);
+    put(kInTheBox, kOutOfTheBox);
     parts->selection.hold(parts->store);
     first_change = program.assign_regions(parts->store, parts->verdicts);
     program.begin(parts->plan.row().first, 2);
@@ -76,7 +76,7 @@ TEST(ModeProgram, SkipsPointsWithoutABound) {
 
 TEST(ModeProgram, KeepsFixedRegionsWhereverFeetGo) {
   Programmed p(FitMode::min_tolerance, RegionPolicy::fixed);
-  p.put(kOnRest, kOnEdgeOfBlade);
+  p.put(kOutOfTheBox, kInTheBox);
   EXPECT_EQ(p.follow(), Regions::at_rest);
   EXPECT_EQ(p.parts->store[0].region, Region::leading_edge);
 }
@@ -84,7 +84,7 @@ TEST(ModeProgram, KeepsFixedRegionsWhereverFeetGo) {
 TEST(ModeProgram, FollowsFeetOverTheBorder) {
   Programmed p;
   EXPECT_EQ(p.follow(), Regions::at_rest);
-  p.put(kOnRest, kOnEdgeOfBlade);
+  p.put(kOutOfTheBox, kInTheBox);
   EXPECT_EQ(p.follow(), Regions::changed);
   EXPECT_EQ(p.parts->store[0].region, Region::rest);
   EXPECT_DOUBLE_EQ(p.value(0.5, -2.0), 2.0);
@@ -94,7 +94,7 @@ TEST(ModeProgram, FollowsFeetOverTheBorder) {
 TEST(ModeProgram, TellsTheLargestChangeOfAWeight) {
   Programmed p;
   EXPECT_EQ(p.program.assign_regions(p.parts->store, p.parts->verdicts), 0.0);
-  p.put(kOnRest, kOnRest);
+  p.put(kOutOfTheBox, kOutOfTheBox);
   EXPECT_DOUBLE_EQ(p.program.assign_regions(p.parts->store, p.parts->verdicts), 0.9) << "from 1 to 10";
 }
 
@@ -103,7 +103,7 @@ TEST(ModeProgram, OnlyTightensAfterAFewRounds) {
   bool over = false;
   const auto cross = [&] {
     over = !over;
-    p.put(over ? kOnRest : kOnEdgeOfBlade, kOnRest);
+    p.put(over ? kOutOfTheBox : kInTheBox, kOutOfTheBox);
     return p.follow();
   };
   for (std::uint32_t k = 0; k < tuning::kFreeRegionRounds; ++k) EXPECT_EQ(cross(), Regions::changed) << k;
@@ -121,7 +121,7 @@ TEST(ModeProgram, GivesUpRegionsThatNeverRest) {
   std::uint32_t rounds = 0;
   for (double u = 0.95; regions == Regions::changed; u -= 0.01, ++rounds) {  // tighter and tighter
     ASSERT_GT(u, 0.61);
-    p.put(kOnEdgeOfBlade, u);
+    p.put(kInTheBox, u);
     regions = p.follow();
   }
   EXPECT_EQ(regions, Regions::restless);

@@ -25,7 +25,7 @@ struct DroCase {
   const char* error;  ///< part of the message; empty = the line is good
 };
 
-class DroLines : public testing::TestWithParam<DroCase> {};
+class DroLines : public ::testing::TestWithParam<DroCase> {};
 
 TEST_P(DroLines, AreReadOrRefused) {
   DroLine line;
@@ -41,22 +41,22 @@ TEST_P(DroLines, AreReadOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, DroLines,
-    testing::Values(DroCase{"X +0123.4567 Y -0001.2000 Z 0000.0000", ""}, DroCase{"x=123.4567; y=-1.2; z=0", ""},
-                    DroCase{"  X+123.4567Y-1.2Z0  ", ""}, DroCase{"X + 123.4567 Y -   1.2000 Z   0.0000", ""},
-                    DroCase{"X=+ 123.4567 R Y=-   1.2000 R Z=    .0000 A", ""},
-                    DroCase{"Z 0.0 X 123.4567mm Y -\t1.2 MM", ""}, DroCase{"X 1 Y 2", "the label Z is missing"},
-                    DroCase{"X 1 Y 2 Z", "no number stands for Z"}, DroCase{"X 1 2 Y 3", "the label Y is missing"},
-                    DroCase{"X 1 Y 2 Z 3 4", "more than three"}, DroCase{"X 1 Y 2 X 3", "X stands in the line twice"},
-                    DroCase{"X 1 Y nan Z 3", "no number stands for Y"},
-                    DroCase{"X - - 1 Y 2 Z 3", "no number stands for X"},
-                    DroCase{"X - ; 1 Y 2 Z 3", "no number stands for X"},
-                    DroCase{"X 1,5 Y 2 Z 3", "a ',' stands within the number for X (set decimal_mark"},
-                    DroCase{"X 1.5\" Y 2.5\" Z 3.5\"", "X is marked \", but units are mm (set units"},
-                    DroCase{"X 1.5 Y 2.5 in Z 3.5", "Y is marked in, but units are mm"},
-                    DroCase{"X 1.5 D Y 2.5 R Z 3.5 R", "X is marked D, a diameter"},
-                    DroCase{"X 1.5 Y 2.5 ? Z 3.5", "the mark '?' behind Y is unknown (name it in marks"},
-                    DroCase{"X 1e999 Y 2 Z 3", "the mark 'e' behind X is unknown"},
-                    DroCase{"12.5 Y 2 Z 3", "the label X is missing"}));
+    ::testing::Values(DroCase{"X +0123.4567 Y -0001.2000 Z 0000.0000", ""}, DroCase{"x=123.4567; y=-1.2; z=0", ""},
+                      DroCase{"  X+123.4567Y-1.2Z0  ", ""}, DroCase{"X + 123.4567 Y -   1.2000 Z   0.0000", ""},
+                      DroCase{"X=+ 123.4567 R Y=-   1.2000 R Z=    .0000 A", ""},
+                      DroCase{"Z 0.0 X 123.4567mm Y -\t1.2 MM", ""}, DroCase{"X 1 Y 2", "the label Z is missing"},
+                      DroCase{"X 1 Y 2 Z", "no number stands for Z"}, DroCase{"X 1 2 Y 3", "the label Y is missing"},
+                      DroCase{"X 1 Y 2 Z 3 4", "more than three"}, DroCase{"X 1 Y 2 X 3", "X stands in the line twice"},
+                      DroCase{"X 1 Y nan Z 3", "no number stands for Y"},
+                      DroCase{"X - - 1 Y 2 Z 3", "no number stands for X"},
+                      DroCase{"X - ; 1 Y 2 Z 3", "no number stands for X"},
+                      DroCase{"X 1,5 Y 2 Z 3", "a ',' stands within the number for X (set decimal_mark"},
+                      DroCase{"X 1.5\" Y 2.5\" Z 3.5\"", "X is marked \", but units are mm (set units"},
+                      DroCase{"X 1.5 Y 2.5 in Z 3.5", "Y is marked in, but units are mm"},
+                      DroCase{"X 1.5 D Y 2.5 R Z 3.5 R", "X is marked D, a diameter"},
+                      DroCase{"X 1.5 Y 2.5 ? Z 3.5", "the mark '?' behind Y is unknown (name it in marks"},
+                      DroCase{"X 1e999 Y 2 Z 3", "the mark 'e' behind X is unknown"},
+                      DroCase{"12.5 Y 2 Z 3", "the label X is missing"}));
 
 TEST(DroLine, FollowsItsSettings) {
   DroSettings settings;

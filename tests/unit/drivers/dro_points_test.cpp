@@ -173,7 +173,7 @@ struct CutCase {
   const char* says;
 };
 
-class DroCutLines : public testing::TestWithParam<CutCase> {};
+class DroCutLines : public ::testing::TestWithParam<CutCase> {};
 
 TEST_P(DroCutLines, AreNoPoints) {
   ReadOut read_out;
@@ -185,20 +185,20 @@ TEST_P(DroCutLines, AreNoPoints) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, DroCutLines,
-    testing::Values(CutCase{"X 7.8702 Y 3.9861 Z 7.5149", "X 34.9271 Y 3.9698 Z 4.7101", "X 52.2734 Y 3.9584 Z 1.90",
-                            "Z has 2 decimals, not 4 as before"},
-                    CutCase{"X 7.8702 Y 3.9861 Z 7.5149", "X 34.9271 Y 3.9698 Z 4.7101", "X 52.273 Y 3.9584 Z 1.9060",
-                            "X has 3 decimals, not 4 as before"},
-                    CutCase{"X +0123.4567 Y -0001.2000 Z 0000.0000", "X +0123.4567 Y +0012.2000 Z 0000.0000",
-                            "X +023.4567 Y +0012.2000 Z 0000.0000", "X takes fewer characters"},
-                    CutCase{"X=+   7.8702 Y=+   3.9861 Z=+   7.5149", "X=+  34.9271 Y=+   3.9698 Z=+   4.7101",
-                            "X=+  4.9271 Y=+   3.9698 Z=+   4.7101", "X takes fewer characters"},
-                    CutCase{"X    7.8702 Y   -3.9861 Z    7.5149", "X   34.9271 Y    3.9698 Z  -14.7101",
-                            "X   34.9271 Y    3.9698 Z  -4.7101", "Z takes fewer characters"},
-                    CutCase{"X 7.8702R Y 3.9861R Z 7.5149R", "X 34.9271R Y 3.9698R Z 4.7101R",
-                            "X 34.9271R Y 3.9698R Z 4.7101", "the marks behind Z are \"\", not \"R\""},
-                    CutCase{"X 7.8702 mm Y 3.9861 mm Z 7.5149 mm", "X 34.9271 mm Y 3.9698 mm Z 4.7101 mm",
-                            "X 34.9271 Y 3.9698 mm Z 4.7101 mm", "its units may have been switched"}));
+    ::testing::Values(CutCase{"X 7.8702 Y 3.9861 Z 7.5149", "X 34.9271 Y 3.9698 Z 4.7101", "X 52.2734 Y 3.9584 Z 1.90",
+                              "Z has 2 decimals, not 4 as before"},
+                      CutCase{"X 7.8702 Y 3.9861 Z 7.5149", "X 34.9271 Y 3.9698 Z 4.7101", "X 52.273 Y 3.9584 Z 1.9060",
+                              "X has 3 decimals, not 4 as before"},
+                      CutCase{"X +0123.4567 Y -0001.2000 Z 0000.0000", "X +0123.4567 Y +0012.2000 Z 0000.0000",
+                              "X +023.4567 Y +0012.2000 Z 0000.0000", "X takes fewer characters"},
+                      CutCase{"X=+   7.8702 Y=+   3.9861 Z=+   7.5149", "X=+  34.9271 Y=+   3.9698 Z=+   4.7101",
+                              "X=+  4.9271 Y=+   3.9698 Z=+   4.7101", "X takes fewer characters"},
+                      CutCase{"X    7.8702 Y   -3.9861 Z    7.5149", "X   34.9271 Y    3.9698 Z  -14.7101",
+                              "X   34.9271 Y    3.9698 Z  -4.7101", "Z takes fewer characters"},
+                      CutCase{"X 7.8702R Y 3.9861R Z 7.5149R", "X 34.9271R Y 3.9698R Z 4.7101R",
+                              "X 34.9271R Y 3.9698R Z 4.7101", "the marks behind Z are \"\", not \"R\""},
+                      CutCase{"X 7.8702 mm Y 3.9861 mm Z 7.5149 mm", "X 34.9271 mm Y 3.9698 mm Z 4.7101 mm",
+                              "X 34.9271 Y 3.9698 mm Z 4.7101 mm", "its units may have been switched"}));
 
 TEST(DroFormat, ANumberNeedNotBeFilledUp) {
   ReadOut read_out;

@@ -31,7 +31,7 @@ struct Number {
   double value;
 };
 
-class NumberCodec : public testing::TestWithParam<Number> {};
+class NumberCodec : public ::testing::TestWithParam<Number> {};
 
 TEST_P(NumberCodec, DecodesEveryTypeInBothOrders) {
   EXPECT_EQ(decode_number(GetParam().words, GetParam().type, GetParam().order), GetParam().value);
@@ -39,20 +39,20 @@ TEST_P(NumberCodec, DecodesEveryTypeInBothOrders) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, NumberCodec,
-    testing::Values(Number{NumberType::uint16, WordOrder::high_first, {0xFFFE}, 65534},
-                    Number{NumberType::int16, WordOrder::low_first, {0xFFFE}, -2},
-                    Number{NumberType::uint32, WordOrder::high_first, {0x0001, 0x0002}, 65538},
-                    Number{NumberType::uint32, WordOrder::low_first, {0x0001, 0x0002}, 131073},
-                    Number{NumberType::int32, WordOrder::high_first, {0xFFFF, 0xFFFE}, -2},
-                    Number{NumberType::int32, WordOrder::low_first, {0xFFFE, 0xFFFF}, -2},
-                    Number{NumberType::float32, WordOrder::high_first, {0x4048, 0xF5C3}, 3.140000104904175},
-                    Number{NumberType::float32, WordOrder::low_first, {0xF5C3, 0x4048}, 3.140000104904175},
-                    Number{NumberType::float64, WordOrder::high_first, {0x40C8, 0x1CD6, 0xC8B4, 0x3958}, 12345.678},
-                    Number{NumberType::float64, WordOrder::low_first, {0x3958, 0xC8B4, 0x1CD6, 0x40C8}, 12345.678},
-                    Number{NumberType::uint16, {WordOrder::high_first, ByteOrder::low_first}, {0x0102}, 0x0201},
-                    Number{NumberType::uint16, {WordOrder::high_first, ByteOrder::low_first_in_long}, {0x0102}, 0x0102},
-                    Number{
-                        NumberType::uint32, {WordOrder::low_first, ByteOrder::low_first_in_long}, {2, 1}, 0x01000200}));
+    ::testing::Values(
+        Number{NumberType::uint16, WordOrder::high_first, {0xFFFE}, 65534},
+        Number{NumberType::int16, WordOrder::low_first, {0xFFFE}, -2},
+        Number{NumberType::uint32, WordOrder::high_first, {0x0001, 0x0002}, 65538},
+        Number{NumberType::uint32, WordOrder::low_first, {0x0001, 0x0002}, 131073},
+        Number{NumberType::int32, WordOrder::high_first, {0xFFFF, 0xFFFE}, -2},
+        Number{NumberType::int32, WordOrder::low_first, {0xFFFE, 0xFFFF}, -2},
+        Number{NumberType::float32, WordOrder::high_first, {0x4048, 0xF5C3}, 3.140000104904175},
+        Number{NumberType::float32, WordOrder::low_first, {0xF5C3, 0x4048}, 3.140000104904175},
+        Number{NumberType::float64, WordOrder::high_first, {0x40C8, 0x1CD6, 0xC8B4, 0x3958}, 12345.678},
+        Number{NumberType::float64, WordOrder::low_first, {0x3958, 0xC8B4, 0x1CD6, 0x40C8}, 12345.678},
+        Number{NumberType::uint16, {WordOrder::high_first, ByteOrder::low_first}, {0x0102}, 0x0201},
+        Number{NumberType::uint16, {WordOrder::high_first, ByteOrder::low_first_in_long}, {0x0102}, 0x0102},
+        Number{NumberType::uint32, {WordOrder::low_first, ByteOrder::low_first_in_long}, {2, 1}, 0x01000200}));
 
 TEST(NumberCodecRoundTrip, EncodesWholeNumbersInEveryType) {
   for (const RegisterOrder order : {RegisterOrder(WordOrder::high_first), RegisterOrder(WordOrder::low_first),
@@ -76,7 +76,7 @@ TEST(NumberCodecRoundTrip, TakesWhatIsNoSequenceAsNone) {
   }
 }
 
-void put_double(Words& words, std::size_t at, double value) {
+void put_double_at(Words& words, std::size_t at, double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
   for (std::size_t word = 0; word < 4; ++word)
     words[at + word] = static_cast<std::uint16_t>(bits >> (48U - 16U * word));
@@ -86,9 +86,9 @@ Words record(std::uint32_t sequence) {
   Words words(cmm_map_v1::kRecordSize);
   words[0] = static_cast<std::uint16_t>(sequence >> 16U);
   words[1] = static_cast<std::uint16_t>(sequence & 0xFFFFU);
-  put_double(words, 2, 1.5);
-  put_double(words, 6, -2.5);
-  put_double(words, 10, 1e-3);
+  put_double_at(words, 2, 1.5);
+  put_double_at(words, 6, -2.5);
+  put_double_at(words, 10, 1e-3);
   words[16] = static_cast<std::uint16_t>(-32767);
   words[17] = 42;
   words[19] = crc16(std::span<const std::uint16_t>(words).first(19));
@@ -142,7 +142,7 @@ TEST(CmmRecord, SaysWhatIsWrong) {
   seal(words);
   EXPECT_EQ(decode_record(words, CmmMap{}, 9, point).message, "record 9: the device marks it as bad, status 3");
   words = record(9);
-  put_double(words, 6, std::numeric_limits<double>::infinity());
+  put_double_at(words, 6, std::numeric_limits<double>::infinity());
   seal(words);
   EXPECT_EQ(decode_record(words, CmmMap{}, 9, point).message, "record 9: y is not a finite number");
   words = record(9);
@@ -160,7 +160,7 @@ Words header() {
   words[4] = 512;
   words[5] = 20;
   words[7] = 77;
-  put_double(words, 8, 12345.678);
+  put_double_at(words, 8, 12345.678);
   return words;
 }
 
@@ -180,7 +180,7 @@ struct WrongHeader {
   const char* error;
 };
 
-class CmmHeaderErrors : public testing::TestWithParam<WrongHeader> {};
+class CmmHeaderErrors : public ::testing::TestWithParam<WrongHeader> {};
 
 TEST_P(CmmHeaderErrors, NameTheMend) {
   Words words = header();
@@ -189,10 +189,11 @@ TEST_P(CmmHeaderErrors, NameTheMend) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CmmHeaderErrors,
-                         testing::Values(WrongHeader{0, 2, "register map version 2, not 1"},
-                                         WrongHeader{4, 0, "set ring_capacity"}, WrongHeader{4, 65535, "beyond 65535"},
-                                         WrongHeader{5, 21, "its records have 21 registers"},
-                                         WrongHeader{8, 0x3FC8, "its test constant reads"}));
+                         ::testing::Values(WrongHeader{0, 2, "register map version 2, not 1"},
+                                           WrongHeader{4, 0, "set ring_capacity"},
+                                           WrongHeader{4, 65535, "beyond 65535"},
+                                           WrongHeader{5, 21, "its records have 21 registers"},
+                                           WrongHeader{8, 0x3FC8, "its test constant reads"}));
 
 TEST(CmmHeader, TellsTheOtherWordOrder) {
   Words words = header();

@@ -135,12 +135,12 @@ struct SwapCase {
   const char* setting;
 };
 
-class ModbusByteOrders : public testing::TestWithParam<SwapCase> {};
+class ModbusByteOrders : public ::testing::TestWithParam<SwapCase> {};
 
 INSTANTIATE_TEST_SUITE_P(All, ModbusByteOrders,
-                         testing::Values(SwapCase{true, ByteOrder::low_first, "set byte_order = \"low_first\""},
-                                         SwapCase{false, ByteOrder::low_first_in_long,
-                                                  "set byte_order = \"low_first_in_long\""}));
+                         ::testing::Values(SwapCase{true, ByteOrder::low_first, "set byte_order = \"low_first\""},
+                                           SwapCase{false, ByteOrder::low_first_in_long,
+                                                    "set byte_order = \"low_first_in_long\""}));
 
 TEST_P(ModbusByteOrders, AreToldByTheTestConstantAndReadWhereSet) {
   TcpMachine machine;

@@ -30,9 +30,10 @@ void wait(ProbeSource& source, milliseconds time) {
 /// Refusals that came within `time` are no more than one a poll period.
 void expect_no_flood(int refusals, milliseconds time) { EXPECT_LE(refusals, time / kPollPeriod + 2); }
 
-class RefusedWrites : public testing::TestWithParam<std::uint8_t> {};
+class RefusedWrites : public ::testing::TestWithParam<std::uint8_t> {};
 
-INSTANTIATE_TEST_SUITE_P(All, RefusedWrites, testing::Values(kIllegalAddress, kDeviceFailure, kAcceptedSlowly, kBusy));
+INSTANTIATE_TEST_SUITE_P(All, RefusedWrites,
+                         ::testing::Values(kIllegalAddress, kDeviceFailure, kAcceptedSlowly, kBusy));
 
 TEST_P(RefusedWrites, DoNotKeepFromReading) {
   TcpMachine machine;
@@ -70,9 +71,9 @@ TEST_P(RefusedWrites, DoNotKeepFromReadingAfterTheLinkCameBack) {
   EXPECT_EQ(collect_checked(*source, 6), counted(4, 9));
 }
 
-class RefusedReads : public testing::TestWithParam<std::uint16_t> {};
+class RefusedReads : public ::testing::TestWithParam<std::uint16_t> {};
 
-INSTANTIATE_TEST_SUITE_P(FromRegister, RefusedReads, testing::Values(0, 100));
+INSTANTIATE_TEST_SUITE_P(FromRegister, RefusedReads, ::testing::Values(0, 100));
 
 TEST_P(RefusedReads, AreTriedAgainOnceAPollPeriod) {
   TcpMachine machine;
@@ -90,11 +91,11 @@ struct BusyCase {
   std::uint8_t function, exception;
 };
 
-class BusyAtOpening : public testing::TestWithParam<BusyCase> {};
+class BusyAtOpening : public ::testing::TestWithParam<BusyCase> {};
 
 INSTANTIATE_TEST_SUITE_P(All, BusyAtOpening,
-                         testing::Values(BusyCase{kRead, kBusy}, BusyCase{kAcknowledge, kAcceptedSlowly},
-                                         BusyCase{kAcknowledge, kBusy}, BusyCase{kCommand, kBusy}));
+                         ::testing::Values(BusyCase{kRead, kBusy}, BusyCase{kAcknowledge, kAcceptedSlowly},
+                                           BusyCase{kAcknowledge, kBusy}, BusyCase{kCommand, kBusy}));
 
 TEST_P(BusyAtOpening, IsWaitedFor) {
   TcpMachine machine;

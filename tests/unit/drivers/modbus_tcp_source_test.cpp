@@ -140,9 +140,9 @@ struct RunChange {
   std::uint16_t from, to;
 };
 
-class ModbusTcpRuns : public testing::TestWithParam<RunChange> {};
+class ModbusTcpRuns : public ::testing::TestWithParam<RunChange> {};
 
-INSTANTIATE_TEST_SUITE_P(All, ModbusTcpRuns, testing::Values(RunChange{4, 5}, RunChange{5, 0}, RunChange{0, 7}));
+INSTANTIATE_TEST_SUITE_P(All, ModbusTcpRuns, ::testing::Values(RunChange{4, 5}, RunChange{5, 0}, RunChange{0, 7}));
 
 /// Nothing of the run that the device is in is stored: it is not told so, and its program is not stopped.
 TEST_P(ModbusTcpRuns, ADeviceInAnotherRunIsLeftAlone) {

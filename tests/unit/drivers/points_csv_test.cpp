@@ -50,7 +50,7 @@ struct BadFile {
   std::string error;  ///< must be part of the message
 };
 
-class PointsCsvErrors : public testing::TestWithParam<BadFile> {};
+class PointsCsvErrors : public ::testing::TestWithParam<BadFile> {};
 
 TEST_P(PointsCsvErrors, NameFileLineColumnAndFix) {
   const PointsFile file = parse_points_csv(GetParam().text, "a.csv", {});
@@ -62,7 +62,7 @@ TEST_P(PointsCsvErrors, NameFileLineColumnAndFix) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, PointsCsvErrors,
-    testing::Values(
+    ::testing::Values(
         BadFile{"", "empty"}, BadFile{"# only\n", "empty"}, BadFile{"x,y,z\n", "list of points is empty"},
         BadFile{"1,2,3\n", "a.csv:1: a number"}, BadFile{"x,y,q\n", "column 'z' is missing among 'x', 'y', 'q'"},
         BadFile{"x,y\n1,2\n", "column 'z' is missing"}, BadFile{"x,y,z,i\n1,2,3,4\n", "column 'j' is missing"},

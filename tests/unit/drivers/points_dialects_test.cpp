@@ -18,7 +18,7 @@ struct Dialect {
 
 void PrintTo(const Dialect& dialect, std::ostream* stream) { *stream << dialect.name; }
 
-class PointsDialects : public testing::TestWithParam<Dialect> {};
+class PointsDialects : public ::testing::TestWithParam<Dialect> {};
 
 /// All of them hold the points 1.5,-2,3.25 and 40,5.0625,-0.6 mm.
 TEST_P(PointsDialects, HoldTheSamePoints) {
@@ -31,7 +31,7 @@ TEST_P(PointsDialects, HoldTheSamePoints) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, PointsDialects,
-    testing::Values(
+    ::testing::Values(
         Dialect{"capitals", "X,Y,Z\n1.5,-2,3.25\n40,5.0625,-0.6\n"},
         Dialect{"blanks beside commas", " x , y , z \n 1.5 , -2 , 3.25\n40,  5.0625, -0.6 \n"},
         Dialect{"tabs", "x\ty\tz\n1.5\t-2\t3.25\n40\t5.0625\t-0.6\n"},
@@ -125,7 +125,7 @@ struct Doubtful {
   std::string text, words;
 };
 
-class PointsDoubtful : public testing::TestWithParam<Doubtful> {};
+class PointsDoubtful : public ::testing::TestWithParam<Doubtful> {};
 
 TEST_P(PointsDoubtful, AreRefusedInOneLineThatHelps) {
   const PointsFile file = parse_points_csv(GetParam().text, "a.csv", {});
@@ -139,7 +139,7 @@ const std::string kSixLines = "x,y,z\n1.25,2.25,3.25\n1.25,2.25,3.25\n1.25,2.25,
 
 INSTANTIATE_TEST_SUITE_P(
     All, PointsDoubtful,
-    testing::Values(
+    ::testing::Values(
         Doubtful{"x,y,z\n1,5,-2,0,3,25\n", "a.csv:2: 6 columns where 3 are named"},
         Doubtful{"x;y;z\n1,234;5,678;9,012\n", "a.csv:2: a number such as 1,234 may have a decimal comma"},
         Doubtful{"x,y,z\n\"1,234\",\"5,678\",9\n", "a.csv:2: a number such as 1,234"},

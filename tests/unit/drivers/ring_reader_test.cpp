@@ -45,7 +45,7 @@ struct BatchCase {
   std::uint16_t count, address;
 };
 
-class RingBatches : public testing::TestWithParam<BatchCase> {};
+class RingBatches : public ::testing::TestWithParam<BatchCase> {};
 
 TEST_P(RingBatches, StayInTheRingAndInOneRead) {
   Bench bench(GetParam().after);
@@ -58,10 +58,10 @@ TEST_P(RingBatches, StayInTheRingAndInOneRead) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RingBatches,
-                         testing::Values(BatchCase{0, 0, 0, 0, 0}, BatchCase{0, 1, 1, 1, 100},
-                                         BatchCase{0, 8, 1, 6, 100}, BatchCase{6, 9, 7, 2, 220},
-                                         BatchCase{8, 9, 9, 1, 100}, BatchCase{15, 23, 16, 1, 240},
-                                         BatchCase{9, 9, 0, 0, 0}, BatchCase{9, 3, 0, 0, 0}));
+                         ::testing::Values(BatchCase{0, 0, 0, 0, 0}, BatchCase{0, 1, 1, 1, 100},
+                                           BatchCase{0, 8, 1, 6, 100}, BatchCase{6, 9, 7, 2, 220},
+                                           BatchCase{8, 9, 9, 1, 100}, BatchCase{15, 23, 16, 1, 240},
+                                           BatchCase{9, 9, 0, 0, 0}, BatchCase{9, 3, 0, 0, 0}));
 
 TEST(RingReader, DeliversEveryRecordOnceInOrder) {
   Bench bench;

@@ -30,7 +30,7 @@ struct Stream {
   std::vector<std::string> lines;
 };
 
-class LineFramerStreams : public testing::TestWithParam<Stream> {};
+class LineFramerStreams : public ::testing::TestWithParam<Stream> {};
 
 TEST_P(LineFramerStreams, AreCutAlikeHoweverTheyCome) {
   for (const std::size_t piece : {1U, 2U, 3U, 1000U})
@@ -38,13 +38,13 @@ TEST_P(LineFramerStreams, AreCutAlikeHoweverTheyCome) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LineFramerStreams,
-                         testing::Values(Stream{"$A*1\r\n$B*2\r\n", {"A*1", "B*2"}}, Stream{"$A\n", {"A"}},
-                                         Stream{"\r\n\r\n$A\r\n", {"A"}}, Stream{"xyz$A\r\n", {"!", "A"}},
-                                         Stream{"x\r\n$A\r\n", {"!", "A"}}, Stream{"$A$B\r\n", {"!", "B"}},
-                                         Stream{"$A\r\nB\r\n$C\r\n", {"A", "!", "C"}},
-                                         Stream{"$" + std::string(300, 'x') + "\r\n$A\r\n", {"!", "!", "A"}},
-                                         Stream{std::string("$\0\xff\r\n", 5), {std::string("\0\xff", 2)}},
-                                         Stream{"$half", {}}));
+                         ::testing::Values(Stream{"$A*1\r\n$B*2\r\n", {"A*1", "B*2"}}, Stream{"$A\n", {"A"}},
+                                           Stream{"\r\n\r\n$A\r\n", {"A"}}, Stream{"xyz$A\r\n", {"!", "A"}},
+                                           Stream{"x\r\n$A\r\n", {"!", "A"}}, Stream{"$A$B\r\n", {"!", "B"}},
+                                           Stream{"$A\r\nB\r\n$C\r\n", {"A", "!", "C"}},
+                                           Stream{"$" + std::string(300, 'x') + "\r\n$A\r\n", {"!", "!", "A"}},
+                                           Stream{std::string("$\0\xff\r\n", 5), {std::string("\0\xff", 2)}},
+                                           Stream{"$half", {}}));
 
 TEST(SerialMessages, AreDecoded) {
   EXPECT_EQ(encode_line("STOP"), "$STOP*BC64\r\n");
@@ -59,7 +59,7 @@ TEST(SerialMessages, AreDecoded) {
   EXPECT_EQ(parse_message(body("ACK,3")).kind, SerialMessage::Kind::host);
 }
 
-class DamagedMessages : public testing::TestWithParam<std::string> {};
+class DamagedMessages : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(DamagedMessages, AreRefused) {
   const SerialMessage message = parse_message(GetParam());
@@ -68,12 +68,12 @@ TEST_P(DamagedMessages, AreRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DamagedMessages,
-                         testing::Values("", "*", "RUN,1", "RUN,1*0000", "RUN,1*" + body("RUN,1").substr(6) + "0",
-                                         body("RUN,-1"), body("RUN"), body("FOO,1"), body("PT,1,2,3"),
-                                         body("PT,1,2,3,4,0,0,0,0,9"), body("PT,0,2,3,4,0,0,0,0"),
-                                         body("PT,1,nan,3,4,0,0,0,0"), body("PT,1,inf,3,4,0,0,0,0"),
-                                         body("PT,1,2,3,4,1,1,1,0"), body("PT,1,2,3,4,0,0,0,70000"),
-                                         body("PT,4294967296,2,3,4,0,0,0,0"), body("PT,1,2,,4,0,0,0,0")));
+                         ::testing::Values("", "*", "RUN,1", "RUN,1*0000", "RUN,1*" + body("RUN,1").substr(6) + "0",
+                                           body("RUN,-1"), body("RUN"), body("FOO,1"), body("PT,1,2,3"),
+                                           body("PT,1,2,3,4,0,0,0,0,9"), body("PT,0,2,3,4,0,0,0,0"),
+                                           body("PT,1,nan,3,4,0,0,0,0"), body("PT,1,inf,3,4,0,0,0,0"),
+                                           body("PT,1,2,3,4,1,1,1,0"), body("PT,1,2,3,4,0,0,0,70000"),
+                                           body("PT,4294967296,2,3,4,0,0,0,0"), body("PT,1,2,,4,0,0,0,0")));
 
 TEST(SerialMessages, RefuseEveryChangedCharacter) {
   const std::string line = body("PT,7,1.5,-2,3,0,0,-1,4");

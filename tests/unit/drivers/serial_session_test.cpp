@@ -14,13 +14,13 @@ namespace {
 using std::chrono::milliseconds;
 
 /// A session at a time that the test sets.
-struct Bench {
+struct SerialBench {
   SerialSettings settings;
   SourceStatus status;
   SerialSession session{settings, status};
   SerialSession::Clock::time_point now = SerialSession::Clock::time_point{} + std::chrono::hours(1);
 
-  explicit Bench(std::uint32_t after = 0, std::uint32_t run_id = 3) {
+  explicit SerialBench(std::uint32_t after = 0, std::uint32_t run_id = 3) {
     session.restart(after, run_id);
     session.link_made(now);
   }
@@ -47,7 +47,7 @@ struct Bench {
 };
 
 TEST(SerialSession, RepeatsAnUnansweredStart) {
-  Bench bench(4);
+  SerialBench bench(4);
   EXPECT_EQ(bench.sent(), "START,5");
   bench.wait(499);
   EXPECT_EQ(bench.sent(), "");
@@ -62,7 +62,7 @@ TEST(SerialSession, RepeatsAnUnansweredStart) {
 }
 
 TEST(SerialSession, StopsWhereTheProgramEndsBeforeWhatWasTaken) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   for (const std::uint32_t sequence : {1U, 2U, 3U}) bench.point(sequence);
   bench.hear("END,2");
@@ -77,7 +77,7 @@ TEST(SerialSession, StopsWhereTheProgramEndsBeforeWhatWasTaken) {
 
 TEST(SerialSession, AsksForNoRecordBehindTheLastNumberThereIs) {
   constexpr std::uint32_t kLast = 0xFFFFFFFFU;
-  Bench bench(kLast - 1);
+  SerialBench bench(kLast - 1);
   bench.hear("RUN,3");
   static_cast<void>(bench.sent());
   bench.point(kLast);
@@ -93,7 +93,7 @@ TEST(SerialSession, AsksForNoRecordBehindTheLastNumberThereIs) {
 }
 
 TEST(SerialSession, DeliversOnceInOrderAndAcknowledges) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   static_cast<void>(bench.sent());
   for (const std::uint32_t sequence : {1U, 2U, 2U, 1U, 3U}) bench.point(sequence);
@@ -110,7 +110,7 @@ TEST(SerialSession, DeliversOnceInOrderAndAcknowledges) {
 }
 
 TEST(SerialSession, AsksForAMissingRecordAtMostOnceAnInterval) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   static_cast<void>(bench.sent());
   bench.point(1);
@@ -128,7 +128,7 @@ TEST(SerialSession, AsksForAMissingRecordAtMostOnceAnInterval) {
 }
 
 TEST(SerialSession, AsksAgainAfterDamageUnlessTheNextRecordFollows) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   static_cast<void>(bench.sent());
   bench.session.damaged("noise", bench.now);
@@ -142,7 +142,7 @@ TEST(SerialSession, AsksAgainAfterDamageUnlessTheNextRecordFollows) {
 }
 
 TEST(SerialSession, NoticesAnEndThatComesTooEarly) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   static_cast<void>(bench.sent());
   bench.hear("END,2");
@@ -156,7 +156,7 @@ TEST(SerialSession, NoticesAnEndThatComesTooEarly) {
 }
 
 TEST(SerialSession, BreaksTheSilence) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   bench.point(1);
   bench.session.acknowledge(1);
@@ -177,7 +177,7 @@ TEST(SerialSession, BreaksTheSilence) {
 }
 
 TEST(SerialSession, StartsAgainFromWhatIsStoredNotFromWhatCame) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   for (const std::uint32_t sequence : {1U, 2U, 3U}) bench.point(sequence);
   bench.session.acknowledge(2);
@@ -192,7 +192,7 @@ TEST(SerialSession, StartsAgainFromWhatIsStoredNotFromWhatCame) {
 }
 
 TEST(SerialSession, StopsWhenTheNumberingHasRestarted) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   bench.point(1);
   bench.hear("RUN,2");
@@ -206,12 +206,12 @@ TEST(SerialSession, StopsWhenTheNumberingHasRestarted) {
 
 TEST(SerialSession, TakesRunZeroForARunLikeAnyOther) {
   for (const auto& [before, now] : {std::pair{0U, 7U}, {4U, 0U}}) {
-    Bench going;
+    SerialBench going;
     going.hear("RUN," + std::to_string(before));
     going.point(1);
     going.hear("RUN," + std::to_string(now));
     EXPECT_TRUE(going.session.stopped());
-    Bench resumed(30, before);
+    SerialBench resumed(30, before);
     resumed.hear("RUN," + std::to_string(now));
     EXPECT_TRUE(resumed.session.stopped());
     EXPECT_EQ(resumed.status.run_id, now);
@@ -220,7 +220,7 @@ TEST(SerialSession, TakesRunZeroForARunLikeAnyOther) {
 }
 
 TEST(SerialSession, FinishesWithoutPointsWhenToldSo) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("RUN,1");
   static_cast<void>(bench.sent());
   EXPECT_FALSE(bench.session.finished());
@@ -234,7 +234,7 @@ TEST(SerialSession, FinishesWithoutPointsWhenToldSo) {
 }
 
 TEST(SerialSession, GivesUpARecordThatTheDeviceDoesNotSend) {
-  Bench bench;
+  SerialBench bench;
   bench.settings.resend_tries = 2;
   bench.hear("RUN,1");
   bench.point(3);
@@ -249,7 +249,7 @@ TEST(SerialSession, GivesUpARecordThatTheDeviceDoesNotSend) {
 }
 
 TEST(SerialSession, TellsAnEchoThatNobodyExpected) {
-  Bench bench;
+  SerialBench bench;
   bench.hear("START,1");
   EXPECT_NE(bench.status.last_fault.find("set echo = true"), std::string::npos);
 }

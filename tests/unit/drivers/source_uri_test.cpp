@@ -16,7 +16,7 @@ struct GoodUri {
   const char* name;
 };
 
-class GoodUris : public testing::TestWithParam<GoodUri> {};
+class GoodUris : public ::testing::TestWithParam<GoodUri> {};
 
 TEST_P(GoodUris, AreUnderstoodAndNamed) {
   SourceSettings settings;
@@ -28,18 +28,18 @@ TEST_P(GoodUris, AreUnderstoodAndNamed) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, GoodUris,
-    testing::Values(GoodUri{"modbus-tcp://localhost:1502", "modbus-tcp", "modbus-tcp://localhost:1502"},
-                    GoodUri{"modbus-tcp://[::1]:502", "modbus-tcp", "modbus-tcp://[::1]:502"},
-                    GoodUri{"modbus-rtu:/dev/ttyUSB0", "modbus-rtu", "modbus-rtu:/dev/ttyUSB0"},
-                    GoodUri{"serial:/dev/serial/by-id/a:b", "serial", "serial:/dev/serial/by-id/a:b"},
-                    GoodUri{"replay:points.csv", "replay", "replay:points.csv"}));
+    ::testing::Values(GoodUri{"modbus-tcp://localhost:1502", "modbus-tcp", "modbus-tcp://localhost:1502"},
+                      GoodUri{"modbus-tcp://[::1]:502", "modbus-tcp", "modbus-tcp://[::1]:502"},
+                      GoodUri{"modbus-rtu:/dev/ttyUSB0", "modbus-rtu", "modbus-rtu:/dev/ttyUSB0"},
+                      GoodUri{"serial:/dev/serial/by-id/a:b", "serial", "serial:/dev/serial/by-id/a:b"},
+                      GoodUri{"replay:points.csv", "replay", "replay:points.csv"}));
 
 struct BadUri {
   const char* uri;
   const char* error;
 };
 
-class BadUris : public testing::TestWithParam<BadUri> {};
+class BadUris : public ::testing::TestWithParam<BadUri> {};
 
 TEST_P(BadUris, NameThePartAndTheMend) {
   SourceSettings settings;
@@ -51,15 +51,15 @@ TEST_P(BadUris, NameThePartAndTheMend) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadUris,
-    testing::Values(BadUri{"", "unknown transport"}, BadUri{"modbus", "unknown transport"},
-                    BadUri{"ftp://a:1", "unknown transport"}, BadUri{"modbus-tcp:localhost:1502", "'//' is missing"},
-                    BadUri{"modbus-tcp://localhost", "port is missing"},
-                    BadUri{"modbus-tcp://[::1]", "port is missing"}, BadUri{"modbus-tcp://localhost:0", "1..65535"},
-                    BadUri{"modbus-tcp://localhost:70000", "1..65535"},
-                    BadUri{"modbus-tcp://localhost:15x", "1..65535"}, BadUri{"modbus-tcp://:1502", "host is missing"},
-                    BadUri{"modbus-tcp://::1:1502", "brackets"}, BadUri{"modbus-tcp://a/b:1502", "no host has"},
-                    BadUri{"modbus-rtu:", "device is missing"}, BadUri{"serial:", "device is missing"},
-                    BadUri{"replay:", "file is missing"}));
+    ::testing::Values(BadUri{"", "unknown transport"}, BadUri{"modbus", "unknown transport"},
+                      BadUri{"ftp://a:1", "unknown transport"}, BadUri{"modbus-tcp:localhost:1502", "'//' is missing"},
+                      BadUri{"modbus-tcp://localhost", "port is missing"},
+                      BadUri{"modbus-tcp://[::1]", "port is missing"}, BadUri{"modbus-tcp://localhost:0", "1..65535"},
+                      BadUri{"modbus-tcp://localhost:70000", "1..65535"},
+                      BadUri{"modbus-tcp://localhost:15x", "1..65535"}, BadUri{"modbus-tcp://:1502", "host is missing"},
+                      BadUri{"modbus-tcp://::1:1502", "brackets"}, BadUri{"modbus-tcp://a/b:1502", "no host has"},
+                      BadUri{"modbus-rtu:", "device is missing"}, BadUri{"serial:", "device is missing"},
+                      BadUri{"replay:", "file is missing"}));
 
 TEST(SourceUri, KeepsTheFormatAndMapOfADeviceFile) {
   SourceSettings read_out(std::in_place_type<DroSettings>);

@@ -21,9 +21,9 @@ constexpr int kLargestRecordNumber = 9999999;
 constexpr std::size_t kLongestFileName = 60;
 
 /// The records of one section, numbered from 1.
-class Section {
+class WrittenSection {
  public:
-  explicit Section(char letter) : letter_(letter) {}
+  explicit WrittenSection(char letter) : letter_(letter) {}
 
   void append(const std::string& text) { text_ += fmt::format("{:<72}{}{:>7}\n", text, letter_, ++count_); }
   [[nodiscard]] int count() const { return count_; }
@@ -76,7 +76,7 @@ std::vector<std::string> global_fields(const IgesOutputHeader& header) {
 }
 
 /// The two directory records of an entity whose parameters are the records `first` .. `last`.
-void append_entry(const IgesOutputEntity& entity, int first, int last, Section& directory) {
+void append_entry(const IgesOutputEntity& entity, int first, int last, WrittenSection& directory) {
   directory.append(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", entity.type, first, 0, 1, entity.level,
                                0, entity.matrix, 0, entity.status));
   directory.append(fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>24}{:>8}", entity.type, 0, 0, last - first + 1, entity.form,
@@ -147,10 +147,10 @@ std::string iges_surface_parameters(const NurbsSurface& surface) {
 }
 
 std::string iges_file_text(const IgesOutputHeader& header, const std::vector<IgesOutputEntity>& entities) {
-  Section start('S');
-  Section global('G');
-  Section directory('D');
-  Section parameters('P');
+  WrittenSection start('S');
+  WrittenSection global('G');
+  WrittenSection directory('D');
+  WrittenSection parameters('P');
   start.append(header.title);
   for (const std::string& record : packed(global_fields(header), kRecordColumns)) global.append(record);
   for (const IgesOutputEntity& entity : entities) {
@@ -164,7 +164,7 @@ std::string iges_file_text(const IgesOutputHeader& header, const std::vector<Ige
     throw ToolError(fmt::format("{}: the design has too many control points for one IGES file; cut it into several",
                                 header.file_name));
   }
-  Section terminate('T');
+  WrittenSection terminate('T');
   terminate.append(
       fmt::format("S{:>7}G{:>7}D{:>7}P{:>7}", start.count(), global.count(), directory.count(), parameters.count()));
   return start.text() + global.text() + directory.text() + parameters.text() + terminate.text();

@@ -10,7 +10,7 @@ namespace {
 /// Normals that differ by more than this [rad] make a crease.
 constexpr double kCreaseAngle = 1e-6;
 /// Along a side normals are compared at this many places.
-constexpr int kPlaces = 9;
+constexpr int kPlacesAcross = 9;
 
 /// Su x Sv at a place of a span; zero where the parametrisation is degenerate.
 Vec3 direction(const BezierPatch& patch, std::size_t iu, std::size_t iv, double s, double t) {
@@ -25,8 +25,8 @@ Vec3 direction(const BezierPatch& patch, std::size_t iu, std::size_t iv, double 
 
 /// The surface has a crease between a span and the next one, in u or in v.
 bool creased(const BezierPatch& patch, std::size_t iu, std::size_t iv, bool along_u) {
-  for (int k = 0; k < kPlaces; ++k) {
-    const double x = static_cast<double>(k) / (kPlaces - 1);
+  for (int k = 0; k < kPlacesAcross; ++k) {
+    const double x = static_cast<double>(k) / (kPlacesAcross - 1);
     const Vec3 here = along_u ? direction(patch, iu, iv, 1.0, x) : direction(patch, iu, iv, x, 1.0);
     const Vec3 next = along_u ? direction(patch, iu + 1, iv, 0.0, x) : direction(patch, iu, iv + 1, x, 0.0);
     if (here.cross(next).norm() > kCreaseAngle || here.dot(next) < 0.0) return true;

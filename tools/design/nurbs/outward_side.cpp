@@ -14,7 +14,7 @@ namespace {
 
 /// Pairs of facets of a whole design that is looked at coarsely, and parts of each direction of a patch there at least.
 constexpr double kCoarseFacets = 600;
-constexpr std::size_t kLeastParts = 4;
+constexpr std::size_t kLeastCounted = 4;
 /// Points from which the winding number is taken.
 constexpr std::size_t kSamples = 160;
 /// From where on a winding number counts as "enclosed". An open sheet has 0, a closed body 1/2.
@@ -99,7 +99,7 @@ SideVote vote_by_winding(const std::vector<NurbsSurface>& surfaces) {
 std::optional<OutwardSide> outward_side_of(const Surface& surface) {
   const std::size_t patches = surface.image().patches().size();
   const auto parts = static_cast<std::size_t>(std::sqrt(kCoarseFacets / static_cast<double>(patches)));
-  const std::vector<double> parameters = even_parameters(std::max(parts, kLeastParts));
+  const std::vector<double> parameters = even_parameters(std::max(parts, kLeastCounted));
   std::vector<Facet> facets;
   for (std::uint32_t patch = 0; patch < patches; ++patch) {
     const auto at = [&](double u, double v) -> Eigen::Vector3d {

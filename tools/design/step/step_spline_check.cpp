@@ -22,10 +22,11 @@ namespace {
 /// The library makes no surface of a higher degree.
 constexpr int kHighestDegree = 25;
 
-using Knots = Handle(TColStd_HArray1OfReal);
+using KnotArray = Handle(TColStd_HArray1OfReal);
 using Multiplicities = Handle(TColStd_HArray1OfInteger);
 
-std::string knot_fault(const Knots& knots, const Multiplicities& multiplicities, int degree, int points, char letter) {
+std::string knot_fault(const KnotArray& knots, const Multiplicities& multiplicities, int degree, int points,
+                       char letter) {
   if (knots.IsNull() || multiplicities.IsNull()) return fmt::format("its knots in {} are missing", letter);
   if (knots->Length() != multiplicities->Length()) {
     return fmt::format("{} knots in {} but {} multiplicities", knots->Length(), letter, multiplicities->Length());
