@@ -6,7 +6,7 @@
 
 #include "tests/golden/golden_case.hpp"
 #include "tests/support/flat_sheets.hpp"
-#include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 
 namespace bladefit::testing {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/design/loft/leading_edge.hpp"
 #include "tools/design/loft/loft.hpp"
 #include "tools/design/nurbs/length_unit.hpp"

@@ -9,7 +9,7 @@
 #include "core/geometry/surface/design_image.hpp"
 #include "drivers/replay/points_csv.hpp"
 #include "drivers/text/text_number.hpp"
-#include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/design/nurbs/patch_points.hpp"

@@ -6,8 +6,7 @@
 #include <array>
 #include <string_view>
 
-#include "tools/design/iges/iges_reader.hpp"
-#include "tools/design/step/step_reader.hpp"
+#include "tools/design/cad_library.hpp"
 #include "tools/files/read_text.hpp"
 #include "tools/files/tool_error.hpp"
 
@@ -44,8 +43,8 @@ constexpr std::array<OtherKind, 18> kOtherKinds = {
 
 DesignFile read_unchecked(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  if (extension == ".igs" || extension == ".iges") return read_iges(path);
-  if (extension == ".stp" || extension == ".step" || extension == ".p21") return read_step(path);
+  if (extension == ".igs" || extension == ".iges") return cad_library().read_iges(path);
+  if (extension == ".stp" || extension == ".step" || extension == ".p21") return cad_library().read_step(path);
   const auto other = std::ranges::find(kOtherKinds, extension, &OtherKind::extension);
   throw ToolError(
       fmt::format("{}: {} \"{}\"; {}", path.string(),

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/unit/tools/design_fixtures.hpp"
-#include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/design/nurbs/nurbs_surface.hpp"
 
 namespace bladefit::testing {

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "tests/unit/tools/design_fixtures.hpp"
-#include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/design/read_design.hpp"
 #include "tools/files/tool_error.hpp"

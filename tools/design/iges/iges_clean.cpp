@@ -7,7 +7,7 @@
 #include "tools/design/iges/iges_references.hpp"
 #include "tools/design/iges/iges_surface.hpp"
 #include "tools/design/iges/iges_text.hpp"
-#include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/design/nurbs/patch_split.hpp"
 
 namespace bladefit {

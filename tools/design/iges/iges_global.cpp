@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "drivers/text/units.hpp"
-#include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {

@@ -16,7 +16,7 @@ constexpr int kLines = 7;
 constexpr double kLean = 0.6;
 /// Lines of a side, and places of a surface, that must agree.
 constexpr int kAgreeing = 6;
-constexpr double kMajority = 0.8, kTold = 0.3;
+constexpr double kRayMajority = 0.8, kTold = 0.3;
 
 /// A surface's facets and the box around them.
 struct Group {
@@ -80,7 +80,7 @@ class Rays {
       if (side > 0) plus += area;
       if (side < 0) minus += area;
     }
-    if (plus + minus < kTold * asked || std::max(plus, minus) < kMajority * (plus + minus)) return 0;
+    if (plus + minus < kTold * asked || std::max(plus, minus) < kRayMajority * (plus + minus)) return 0;
     return plus > minus ? 1 : -1;
   }
 

@@ -1,4 +1,4 @@
-#include "tools/design/iges/iges_writer.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/design/iges/iges_surface.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/read_text.hpp"

@@ -9,6 +9,19 @@
 
 namespace bladefit {
 
+inline constexpr int kIgesSurfaceType = 128;
+
+/// Calls `visit(k)` for each control point number k of `surface` in the order of IGES, where the first index is the
+/// fastest.
+template <class Visit>
+void iges_order(const NurbsSurface& surface, Visit visit) {
+  const auto count_u = static_cast<std::size_t>(surface.u.control_points);
+  const auto count_v = static_cast<std::size_t>(surface.v.control_points);
+  for (std::size_t j = 0; j < count_v; ++j) {
+    for (std::size_t i = 0; i < count_u; ++i) visit(i * count_v + j);
+  }
+}
+
 /// One entity of an IGES file to be written.
 struct IgesOutputEntity {
   int type = 0;

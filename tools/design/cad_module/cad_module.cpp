@@ -1,0 +1,9 @@
+#include "tools/design/cad_module/cad_module.hpp"
+
+#include "tools/design/iges/iges_reader.hpp"
+#include "tools/design/step/step_reader.hpp"
+
+extern "C" __attribute__((visibility("default"))) const bladefit::CadModule* bladefit_cad_module() {
+  static constexpr bladefit::CadModule kModule{BLADEFIT_VERSION, bladefit::read_iges, bladefit::read_step};
+  return &kModule;
+}
