@@ -1,10 +1,14 @@
 #include "tools/commands/command_line.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "tools/commands/compile_command.hpp"
+#include "tools/commands/help_commands.hpp"
 #include "tools/commands/localize_command.hpp"
 #include "tools/commands/loft_command.hpp"
 #include "tools/commands/panel_command.hpp"
@@ -15,6 +19,8 @@
 #include "tools/commands/sample_command.hpp"
 #include "tools/commands/simulate_command.hpp"
 #include "tools/commands/split_command.hpp"
+#include "tools/commands/suggestion.hpp"
+#include "tools/commands/version_text.hpp"
 #include "tools/files/exit_codes.hpp"
 #include "tools/files/message.hpp"
 
@@ -38,12 +44,51 @@ std::string words_of(const CLI::ParseError& error) {
   return text.substr(place + 2, equal - place - 2) + ": '" + text.substr(equal + 3) + "' is not a number";
 }
 
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// "'--tolerence' is no option of localize (did you mean --tolerance?)" for the first word that has no meaning there;
+/// empty where each has one.
+std::string unknown_option(const CLI::App& app) {
+  if (app.get_subcommands().empty()) return "";
+  const CLI::App& command = *app.get_subcommands().front();
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+  }
+  for (const std::string& word : command.remaining()) {
+    const std::string flag = word.substr(0, word.find('='));
+    if (flag.size() < 2 || flag.front() != '-') continue;
+    return "'" + flag + "' is no option of " + command.get_name() + suggestion(flag, flags);
+  }
+  return "";
+}
+
+/// What is wrong, and where the right words stand.
+int refuse(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
+  const std::vector<std::string> names = names_of_commands(app);
+  if (!first.empty() && first.front() != '-' && std::ranges::find(names, first) == names.end()) {
+    tell("'" + first + "' is no command" + suggestion(first, names) + "; `bladefit --help` lists them");
+    return kBadInput;
+  }
+  const std::string unknown = unknown_option(app);
+  tell((unknown.empty() ? words_of(error) : unknown) +
+       "; `bladefit --help` and `bladefit COMMAND --help` list what there is");
+  return kBadInput;
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("bladefit: live localization of marine propeller blades on a coordinate measuring machine", "bladefit");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.footer(kFooter);
+  app.set_version_flag("--version", version_text,
+                       "Print version and commit, and what of processor and CAD library is used");
   int exit_code = 0;
   add_loft_command(app, exit_code);
   add_split_command(app, exit_code);
@@ -56,19 +101,17 @@ int run_command_line(int argc, char** argv) {
   add_report_command(app, exit_code);
   add_recover_command(app, exit_code);
   add_reproduce_command(app, exit_code);
+  add_help_commands(app, exit_code);
+  if (argc == 1) {
+    fmt::print("{}", app.help());
+    return 0;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    const std::string first = argc > 1 ? argv[1] : "";
-    const auto named = [&first](const CLI::App* command) { return command->get_name() == first; };
-    if (!first.empty() && first.front() != '-' && app.get_subcommands(named).empty()) {
-      tell("'" + first + "' is no command; `bladefit --help` lists them");
-      return kBadInput;
-    }
-    tell(words_of(error) + "; `bladefit --help` and `bladefit COMMAND --help` list what there is");
-    return kBadInput;
+    return refuse(app, error, argv[1]);
   }
   return exit_code;
 }

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/design/loft/leading_edge.hpp"
 #include "tools/design/loft/loft.hpp"
+#include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/tool_error.hpp"

@@ -8,7 +8,8 @@ namespace bladefit {
 /// What the module offers in which OpenCASCADE is linked. It is loaded where a CAD file is read, and only there:
 /// loading OpenCASCADE takes longer than most commands do, and who has compiled designs alone needs none of it.
 struct CadModule {
-  const char* version;  ///< of the build that it belongs to; another one is not used
+  const char* version;      ///< of the build that it belongs to; another one is not used
+  const char* opencascade;  ///< version of the library
   DesignFile (*read_iges)(const std::filesystem::path& path);
   DesignFile (*read_step)(const std::filesystem::path& path);
 };

@@ -1,0 +1,88 @@
+// What the command line says of itself: suggestions, help, version, completion, manual pages.
+
+#include <gtest/gtest.h>
+
+#include "tests/support/process.hpp"
+#include "tools/commands/suggestion.hpp"
+
+namespace bladefit {
+namespace {
+
+struct Said {
+  std::optional<int> exit_code;
+  std::string out, err;
+};
+
+Said say(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), BLADEFIT_COMMAND);
+  hil::Process command(arguments);
+  const std::optional<int> code = command.exit_code();
+  return {code, command.out(), command.err()};
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(EditDistance, CountsLettersInsertedDroppedReplacedOrSwapped) {
+  EXPECT_EQ(edit_distance("", "abc"), 3U);
+  EXPECT_EQ(edit_distance("design", "design"), 0U);
+  EXPECT_EQ(edit_distance("desgn", "design"), 1U);
+  EXPECT_EQ(edit_distance("desing", "design"), 1U);
+  EXPECT_EQ(edit_distance("localize", "lokalise"), 2U);
+}
+
+TEST(Suggestion, IsTheNearestWordThatIsNear) {
+  EXPECT_EQ(suggestion("tolerence", {"transition", "tolerance"}), " (did you mean tolerance?)");
+  EXPECT_EQ(suggestion("quite-another", {"transition", "tolerance"}), "");
+  EXPECT_EQ(suggestion("any", {}), "");
+}
+
+TEST(CommandWords, MistypedOnesAreAnsweredWithTheNearest) {
+  const Said command = say({"localise"});
+  EXPECT_EQ(command.exit_code, 2);
+  EXPECT_TRUE(holds(command.err, "'localise' is no command (did you mean localize?)")) << command.err;
+  const Said option = say({"localize", "--tolerence=0.1"});
+  EXPECT_EQ(option.exit_code, 2);
+  EXPECT_TRUE(holds(option.err, "'--tolerence' is no option of localize (did you mean --tolerance?)")) << option.err;
+}
+
+TEST(CommandWords, NoneAtAllAndHelpShowTheCommands) {
+  const Said nothing = say({}), help = say({"help"}), of_command = say({"help", "compile"});
+  EXPECT_EQ(nothing.exit_code, 0);
+  EXPECT_TRUE(holds(nothing.out, "  localize  ")) << nothing.out;
+  EXPECT_EQ(nothing.out, help.out);
+  EXPECT_EQ(of_command.exit_code, 0);
+  EXPECT_EQ(of_command.out, say({"compile", "--help"}).out);
+  EXPECT_EQ(say({"help", "cmpile"}).exit_code, 2);
+}
+
+TEST(CommandWords, VersionNamesCommitProcessorAndCadLibrary) {
+  const Said version = say({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  for (const char* word : {"bladefit ", "commit ", "processor: ", "OpenCASCADE 7."}) {
+    EXPECT_TRUE(holds(version.out, word)) << version.out;
+  }
+}
+
+TEST(CommandWords, ShellsCompleteWhatTheOptionsAre) {
+  const Said bash = say({"completion", "bash"});
+  ASSERT_EQ(bash.exit_code, 0) << bash.err;
+  hil::Process asked({"/bin/bash", "-c",
+                      bash.out + "COMP_WORDS=(bladefit localize --mode min); COMP_CWORD=3; _bladefit; echo "
+                                 "${COMPREPLY[@]}; COMP_WORDS=(bladefit run --sessi); COMP_CWORD=2; _bladefit; echo "
+                                 "${COMPREPLY[@]}"});
+  EXPECT_EQ(asked.exit_code(), 0) << asked.err();
+  EXPECT_EQ(asked.out(), "minimax min_tolerance\n--session\n");
+  const Said zsh = say({"completion", "zsh"});
+  EXPECT_TRUE(holds(zsh.out, "--mode) compadd least_squares minimax")) << zsh.out;
+}
+
+TEST(CommandWords, ManualPagesHaveEveryOption) {
+  const Said page = say({"help", "localize", "--man"});
+  EXPECT_EQ(page.exit_code, 0);
+  EXPECT_EQ(page.out.rfind(".TH BLADEFIT\\-LOCALIZE 1", 0), 0U) << page.out;
+  EXPECT_TRUE(holds(page.out, ".B \\-\\-leading\\-edge")) << page.out;
+  EXPECT_TRUE(holds(say({"help", "--man"}).out, ".SH COMMANDS")) << page.out;
+}
+
+}  // namespace
+}  // namespace bladefit
