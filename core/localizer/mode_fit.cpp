@@ -37,13 +37,13 @@ ModeFit::Next ModeFit::give_up(FitEnd why) {
 }
 
 /// Which points count from here on, and how tight their bounds are, is settled by their feet.
-ModeFit::Next ModeFit::begin() {
+ModeFit::Next ModeFit::begin(bool at_squares) {
   selection_.hold(store_);
   (void)program_.assign_regions(store_, verdicts_);
   starts_.plan(estimate_.pose(), sums_.model());
   const PointSelection::Span span = selection_.distances(store_, 1);
   squares_range_ = span.most - span.least;
-  if (plan_.may_be_infeasible() && program_.bounds_hold(store_, selection_)) return Next::optimum;
+  if (at_squares && plan_.may_be_infeasible() && program_.bounds_hold(store_, selection_)) return Next::optimum;
   return begin_program(plan_.row().first, false);
 }
 

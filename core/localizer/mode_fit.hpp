@@ -29,9 +29,9 @@ class ModeFit {
     optimum,  ///< nothing: the pose is the optimum
     given_up  ///< nothing: see why()
   };
-  /// The pose is the least-squares optimum, every foot proven. optimum: it is that of the mode as well, since it meets
-  /// the tolerances that a constrained fit must keep.
-  [[nodiscard]] Next begin();
+  /// Every foot at the pose was searched. `at_squares`: it is the least-squares optimum. optimum: it is that of the
+  /// mode as well, since it meets the tolerances that a constrained fit must keep.
+  [[nodiscard]] Next begin(bool at_squares);
 
   /// A sweep of a program: it begins, each point is measured, from a place that is told, and it ends.
   void begin_sweep();

@@ -27,6 +27,7 @@ class ModeProgram {
   /// As those of BoundedFit.
   void set_limits(std::uint32_t count) { fit_.set_limits(count); }
   void set_limit(std::uint32_t k, double value, const Vec6& gradient) { fit_.set_limit(k, value, gradient); }
+  void refuse_pose() { fit_.refuse_pose(); }
   void free_limit(std::uint32_t k) { fit_.free_limit(k); }
   [[nodiscard]] std::uint32_t held_feet() const { return fit_.active_limits(); }
   /// What the distance of a point is compared with, at a value of 1.

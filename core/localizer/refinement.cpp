@@ -176,6 +176,7 @@ double Refinement::solve(bool concluded) {
 /// ok or underdetermined: this pose is the optimum.
 Status Refinement::least_squares_step(const Call& call) {
   const bool last = sweep_.number() >= tuning::kRefineSweeps;
+  if (feet_restless()) return follow(mode_.begin(false));
   if (retreat()) return last ? give_up(FitEnd::sweeps_used_up) : Status::more_work;
   descent_ = {sums_.model().half_square, sums_.model().count};
   sweep_.set_last_pose(estimate_.pose());
@@ -189,10 +190,17 @@ Status Refinement::least_squares_step(const Call& call) {
     return Status::more_work;
   }
   if (!estimate_.determined()) return Status::underdetermined;
-  if (plan_.bounded()) return follow(mode_.begin());
+  if (plan_.bounded()) return follow(mode_.begin(true));
   if (!loss_.adapt(store_, selection_)) return Status::ok;
   sweep_.begin_again();  // the sums are of the old loss
   return Status::more_work;
+}
+
+/// Feet keep their sheets, and every foot was searched: some lie on other sheets again. The sum of squares may have no
+/// minimum then that is one of its own feet; the programs of a mode need a start alone.
+bool Refinement::feet_restless() const {
+  const bool other_feet = sweep_.proof() && !sweep_.proves();
+  return plan_.bounded() && other_feet && sweep_.number() > tuning::kFreeSearchSweeps && estimate_.determined();
 }
 
 /// The last step made the sum of squares larger: go back and take a quarter of it. False when it did not.

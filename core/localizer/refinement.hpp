@@ -50,6 +50,7 @@ class Refinement {
   [[nodiscard]] double solve(bool concluded);
 
   [[nodiscard]] Status least_squares_step(const Call& call);
+  [[nodiscard]] bool feet_restless() const;
   [[nodiscard]] bool retreat();
 
   /// The sum of squares before the last step.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/fit/existence_row.hpp"
 #include "core/fit/facing_row.hpp"
 
 namespace bladefit {
@@ -27,8 +28,8 @@ void SheetDescent::begin(const PointStore& store, bool there) {
 void SheetDescent::begin_sweep(ModeProgram& program) {
   others_.count = 0;
   any_other_ = false;
-  program.set_limits(held_.count);
-  for (std::uint32_t k = 0; k < held_.count; ++k) program.free_limit(k);
+  program.set_limits(2 * held_.count);
+  for (std::uint32_t k = 0; k < 2 * held_.count; ++k) program.free_limit(k);
 }
 
 void SheetDescent::note(std::uint32_t index, const StoredPoint& point, const Pose& pose, const Measurement& m,
@@ -40,14 +41,54 @@ void SheetDescent::note(std::uint32_t index, const StoredPoint& point, const Pos
     (void)others_.add(index);
   }
   const std::uint32_t k = held_.find(index);
-  if (k == held_.count || m.foot.kind != FootKind::interior) return;
-  const Vec3 approach = pose.rotation * point.approach;
-  const FacingRow row = facing_row(m.projection, m.foot.normal, m.r, approach, problem_.frame);
+  if (k < held_.count && m.foot.kind == FootKind::interior) hold(k, pose.rotation * point.approach, m, program);
+}
+
+void SheetDescent::hold(std::uint32_t k, const Vec3& approach, const Measurement& m, ModeProgram& program) {
   Hold& hold = hold_[k];
-  if (!hold.known) hold = {true, std::max(0.0, row.facing), row.gradient.norm()};
-  if (!(hold.slope > 0.0)) return;
-  const double margin = hold.allowed > 0.0 ? 0.0 : tuning::kFacesBy * problem_.frame.length;
-  program.set_limit(k, (row.facing - hold.allowed) / hold.slope + margin, row.gradient / hold.slope);
+  if (jumped(hold, m)) return program.refuse_pose();
+  const FacingRow facing = facing_row(m.projection, m.foot.normal, m.r, approach, problem_.frame);
+  const ExistenceRow row = existence_row(problem_.surface, m.projection, m.foot.normal, m.r, problem_.frame);
+  const double missing = tuning::kLeastExistence - row.existence;
+  if (!hold.known) {
+    hold.known = true;
+    hold.averted.begin(facing.facing, facing.gradient);
+    hold.missing.begin(missing, -row.gradient);
+  }
+  const double margin = hold.averted.allowed > 0.0 ? 0.0 : tuning::kFacesBy * problem_.frame.length;
+  hold.averted.set(2 * k, facing.facing, facing.gradient, margin, program);
+  hold.missing.set(2 * k + 1, missing, -row.gradient, 0.0, program);
+}
+
+void SheetDescent::Limit::begin(double value, const Vec6& gradient) {
+  allowed = std::max(0.0, value);
+  slope = gradient.norm();
+}
+
+void SheetDescent::Limit::set(std::uint32_t k, double value, const Vec6& gradient, double margin,
+                              ModeProgram& program) const {
+  if (slope > 0.0) program.set_limit(k, (value - allowed) / slope + margin, gradient / slope);
+}
+
+/// A foot moves with its point, and its distance by no more than the point does; what changes by more is another foot.
+bool SheetDescent::jumped(Hold& hold, const Measurement& m) const {
+  hold.tried_r = m.r;
+  hold.tried_distance = m.foot.distance;
+  if (!hold.placed) {
+    hold.placed = true;
+    hold.r = m.r;
+    hold.distance = m.foot.distance;
+  }
+  const double most = (m.r - hold.r).norm() + tuning::kSameFoot * problem_.frame.length;
+  return std::abs(m.foot.distance - hold.distance) > most;
+}
+
+void SheetDescent::accept(std::uint32_t count) {
+  sheets_.accept(count);
+  for (std::uint32_t k = 0; k < held_.count; ++k) {
+    hold_[k].r = hold_[k].tried_r;
+    hold_[k].distance = hold_[k].tried_distance;
+  }
 }
 
 SheetDescent::Outcome SheetDescent::weigh(bool proof, double merit, const Pose& pose, std::uint32_t count) {
@@ -62,6 +103,7 @@ SheetDescent::Outcome SheetDescent::weigh(bool proof, double merit, const Pose& 
   }
   if (!any_other_) return merit <= first_merit_ * (1.0 + tuning::kSameOptimum) ? Outcome::same : Outcome::stuck;
   const bool last = ++rounds_ > tuning::kSheetRounds;
+  for (std::uint32_t k = 0; k < held_.count; ++k) hold_[k].placed = false;
   if (counts || free_) {
     release_others();
     return last ? Outcome::stuck : Outcome::adopted;

@@ -45,13 +45,13 @@ class SheetDescent {
   [[nodiscard]] Outcome let_go(std::uint32_t count);
   [[nodiscard]] const Pose& proven_pose() const { return proven_pose_; }
   /// The step of the program counts.
-  void accept(std::uint32_t count) { sheets_.accept(count); }
+  void accept(std::uint32_t count);
 
  private:
   [[nodiscard]] bool hold_others();
   void release_others();
 
-  static constexpr std::uint32_t kMost = BoundRows::kMostLimits;
+  static constexpr std::uint32_t kMost = BoundRows::kMostLimits / 2;  ///< each has two limits
   /// A few points by their index.
   struct Points {
     std::array<std::uint32_t, kMost> index{};
@@ -62,12 +62,23 @@ class SheetDescent {
     bool add(std::uint32_t i);
   };
 
-  /// How a foot is held: n . a is no more than what it was at the proven pose, or 0, counted in the length that the
+  /// Something of a foot that must not rise above what it was at the proven pose, or 0, counted in the length that the
   /// pose must have moved for it there.
+  struct Limit {
+    double allowed = 0, slope = 0;  ///< [-, 1/mm]
+    void begin(double value, const Vec6& gradient);
+    void set(std::uint32_t k, double value, const Vec6& gradient, double margin, ModeProgram& program) const;
+  };
+  /// How a foot is held: n . a, and what lacks to its least existence.
   struct Hold {
     bool known = false;
-    double allowed = 0, slope = 0;  ///< [-, 1/mm]
+    Limit averted, missing;
+    bool placed = false;  ///< the point and its distance at the pose that the next step is made from are known
+    Vec3 r = Vec3::Zero(), tried_r = Vec3::Zero();
+    double distance = 0, tried_distance = 0;
   };
+  [[nodiscard]] bool jumped(Hold& hold, const Measurement& m) const;
+  void hold(std::uint32_t k, const Vec3& approach, const Measurement& m, ModeProgram& program);
 
   const FitProblem& problem_;
   KeptSheets sheets_;

@@ -27,6 +27,7 @@ bool Sweep::proven_already() const { return since_search_ <= tuning::kSearchHold
 /// Points that were staged from a place are tracked until the last sweep: their margin is infinite.
 Search Sweep::search_of(const StoredPoint& point) const {
   if (thorough_) return proven_already() ? Search::if_doubtful : Search::always;
+  if (number_ > tuning::kFreeSearchSweeps) return Search::keep;
   const bool travels =
       travelled_ > tuning::kTravelsBeyond * problem_.frame.length && std::isfinite(point.runner_up.margin);
   return travels ? Search::always : Search::if_doubtful;

@@ -63,6 +63,9 @@ inline constexpr std::uint32_t kScaleRounds = 30;
 
 // Refinement
 inline constexpr std::uint32_t kRefineSweeps = 100;
+/// After so many sweeps feet keep their sheets until a sweep proves them: where steps meet other sheets again and again
+/// the sum of squares jumps, and is no measure of a step. Some ten sweeps are usual.
+inline constexpr std::uint32_t kFreeSearchSweeps = 30;
 /// [L] A step longer than the first must lower the sum of squares; one shorter than the second means convergence.
 inline constexpr double kCheckedAbove = 1e-6, kConvergedBelow = 1e-12;
 /// [L] While the pose travels farther than this between two sweeps, feet are searched again: tracked ones would be left
@@ -91,6 +94,8 @@ inline constexpr double kPoseAtRest = 1e-7;
 
 /// [L] A foot that is held to face its probe does so where the pose may move by this much before it averts itself.
 inline constexpr double kFacesBy = 1e-9;
+/// And its existence (existence_row.hpp) is kept above this: below, the foot moves ten times as far as its point.
+inline constexpr double kLeastExistence = 1e-2;
 /// A merit that rises by no more than this share has not risen.
 inline constexpr double kMeritRounding = 1e-12;
 /// Sweeps of one program, and of all programs of a refinement. Some thirty are usual; a point beyond where its probe

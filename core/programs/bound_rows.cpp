@@ -34,6 +34,11 @@ void BoundRows::skip(std::uint32_t i) {
   column(kUpper)[i] = kUnbounded;
 }
 
+void BoundRows::set_bounds(std::uint32_t i, const Bounds& bounds) {
+  column(kLower)[i] = bounds.lower;
+  column(kUpper)[i] = bounds.upper;
+}
+
 double BoundRows::distance(std::uint32_t i) const { return -0.5 * (column(kLower)[i] + column(kUpper)[i]); }
 
 BoundRows::Extremes BoundRows::extremes() const {

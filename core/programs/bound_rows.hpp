@@ -11,7 +11,7 @@ namespace bladefit {
 class BoundRows {
  public:
   /// Conditions beside the distances that a step must keep.
-  static constexpr std::uint32_t kMostLimits = 16;
+  static constexpr std::uint32_t kMostLimits = 32;
   /// Doubles of the caller's memory for `capacity` points: six of a gradient, two bounds and a weight for each and for
   /// the limits.
   static constexpr std::uint64_t doubles_for(std::uint64_t capacity) { return 9 * (capacity + kMostLimits); }
@@ -29,6 +29,12 @@ class BoundRows {
   /// |d + gradient x| <= half and the level, where there is one.
   void set(std::uint32_t i, const Vec6& gradient, double distance, double half);
   void skip(std::uint32_t i);
+  /// Of gradient x, without the levels.
+  struct Bounds {
+    double lower = 0, upper = 0;
+  };
+  [[nodiscard]] Bounds bounds(std::uint32_t i) const { return {column(kLower)[i], column(kUpper)[i]}; }
+  void set_bounds(std::uint32_t i, const Bounds& bounds);
   /// NaN of a row that does not count.
   [[nodiscard]] double distance(std::uint32_t i) const;
   /// Smallest and largest signed distance [mm].

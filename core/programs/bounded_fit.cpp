@@ -16,6 +16,10 @@ constexpr double kTrustAnew = 1e-2;
 /// A merit may rise by this share and still count as the same.
 constexpr double kMeritRounding = 1e-12;
 
+/// A step of this share of the trust is as long as it may be; so many of these that keep little ask for a correction.
+constexpr double kAtTrust = 0.99;
+constexpr std::uint32_t kShortSteps = 8;
+
 double sign_of(const ActiveSet::Entry& entry) { return entry.side == Side::upper ? 1.0 : -1.0; }
 
 }  // namespace
@@ -27,6 +31,7 @@ void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
   active_ = ActiveSet();
   curvature_.setZero();
   penalty_ = 0;
+  short_steps_ = 0;
   last_.taken = curved_ = false;
 }
 
@@ -34,6 +39,7 @@ void BoundedFit::resume(std::uint32_t count) {
   rows_.resume(count);
   trust_ = reach_;
   curvature_.setZero();
+  short_steps_ = 0;
   last_.taken = curved_ = false;
 }
 
@@ -42,7 +48,10 @@ void BoundedFit::compare_anew() {
   trust_ = std::max(trust_, kTrustAnew * reach_);
 }
 
-void BoundedFit::set_basis(const MotionBasis& basis) { basis_ = basis; }
+void BoundedFit::set_basis(const MotionBasis& basis) {
+  basis_ = basis;
+  refused_ = false;
+}
 
 void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
   const Vec6 gradient = basis_.free == 6 ? row.gradient : Vec6(basis_.directions.transpose() * row.gradient);
@@ -51,9 +60,22 @@ void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
     if (entry.index == static_cast<int>(i)) {
       const Mat6& basis = basis_.directions;
-      curvature_ += entry.multiplier * sign_of(entry) * (basis.transpose() * row.bend * basis);
+      bend_[static_cast<std::size_t>(k)] = basis.transpose() * row.bend * basis;
+      curvature_ += entry.multiplier * sign_of(entry) * bend_[static_cast<std::size_t>(k)];
     }
   }
+}
+
+/// The numbers of limits and of the bounds of a step change with the count: no active set knows them any more.
+void BoundedFit::set_limits(std::uint32_t count) {
+  if (count == rows_.limits()) return;
+  int kept = 0;
+  for (int k = 0; k < active_.count; ++k) {
+    const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
+    if (rows_.is_distance(entry.index)) active_.entries[static_cast<std::size_t>(kept++)] = entry;
+  }
+  active_.count = kept;
+  rows_.set_limits(count);
 }
 
 void BoundedFit::set_limit(std::uint32_t k, double value, const Vec6& gradient) {
@@ -76,6 +98,7 @@ double BoundedFit::slack(std::uint32_t i) const {
 }
 
 double BoundedFit::merit(const QuadraticModel& model) const {
+  if (refused_) return kUnbounded;
   if (mode_ == FitMode::constrained) return model.half_square + penalty_ * rows_.violation();
   return value() + penalty_ * rows_.broken_limit();
 }
@@ -103,6 +126,34 @@ Vec8 BoundedFit::set_levels(Constraints& c) const {
     gradient[7] = 1.0;
   }
   return gradient;
+}
+
+/// A second-order correction (Fletcher 1982): the same program once more with the curvature of each active distance
+/// over the step just found, which the program knows only in the sum. Without it a step along a curved ridge of the
+/// largest distance keeps less than it promises however short it is, and the steps stay short.
+ActiveSetResult BoundedFit::solve_corrected() {
+  const ActiveSetResult first = solve_levels();
+  if (short_steps_ < kShortSteps || !succeeded(first.status)) return first;
+  const Vec6 x = first.x.head<6>();
+  std::array<BoundRows::Bounds, kMaxVariables + 1> kept;
+  for (int k = 0; k < active_.count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const auto row = static_cast<std::uint32_t>(active_.entries[at].index);
+    if (!rows_.is_distance(active_.entries[at].index)) continue;
+    kept[at] = rows_.bounds(row);
+    const double bent = 0.5 * x.dot(bend_[at] * x);
+    rows_.set_bounds(row, {kept[at].lower - bent, kept[at].upper - bent});
+  }
+  ActiveSetResult second = solve_levels();
+  for (int k = 0; k < active_.count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (!rows_.is_distance(active_.entries[at].index)) continue;
+    rows_.set_bounds(static_cast<std::uint32_t>(active_.entries[at].index), kept[at]);
+  }
+  if (!succeeded(second.status)) return first;
+  Constraints c;
+  second.objective = set_levels(c).dot(second.x);
+  return second.objective < value() ? second : first;
 }
 
 /// min s with |d + J x| <= w s, or min s_high - s_low with s_low <= d + J x <= s_high.
@@ -158,7 +209,7 @@ ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
 
 /// True where the last step raised the merit: a quarter of it, from where it started.
 bool BoundedFit::retreat(double merit, Step& step) {
-  const bool checked = last_.taken && last_.x.norm() > kCheckedAbove * reach_;
+  const bool checked = last_.taken && (refused_ || last_.x.norm() > kCheckedAbove * reach_);
   if (!checked || merit <= last_.merit * (1.0 + kMeritRounding)) return false;
   last_.x *= 0.25;
   trust_ = last_.x.lpNorm<Eigen::Infinity>();
@@ -174,6 +225,8 @@ void BoundedFit::adapt_trust(double merit) {
   const double kept = last_.merit - merit, promised = last_.merit - last_.promise;
   const double length = last_.x.lpNorm<Eigen::Infinity>();
   if (kept > 0.75 * promised) trust_ = std::min(reach_, std::max(trust_, 2.0 * length));
+  const bool held_back = curved_ && kept <= 0.75 * promised && length >= kAtTrust * trust_;
+  if (held_back && kept >= 0.25 * promised) ++short_steps_;
   if (kept >= 0.25 * promised || length <= kCheckedAbove * reach_) return;
   trust_ = 0.5 * length;
   curved_ = true;
@@ -182,12 +235,16 @@ void BoundedFit::adapt_trust(double merit) {
 BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
   Step step;
   const double present = merit(model);
+  if (refused_ && !(last_.taken && last_.x.norm() > kSettledBelow * reach_)) {
+    step.status = Status::infeasible;
+    return step;
+  }
   if (retreat(present, step)) {
     curvature_.setZero();
     return step;
   }
   adapt_trust(present);
-  const ActiveSetResult result = mode_ == FitMode::constrained ? solve_bounds(model) : solve_levels();
+  const ActiveSetResult result = mode_ == FitMode::constrained ? solve_bounds(model) : solve_corrected();
   curvature_.setZero();
   step.status = result.status;
   if (!succeeded(result.status)) return step;

@@ -32,6 +32,8 @@ class BoundedFit {
   [[nodiscard]] double weight(std::uint32_t i) const { return rows_.weight(i); }
   /// Steps go along the free directions of the basis only. Given before the rows of a pose.
   void set_basis(const MotionBasis& basis);
+  /// A foot that is held is none any more at the present pose: the step that led here is taken back.
+  void refuse_pose() { refused_ = true; }
   /// The row of point i at the present pose.
   void set_row(std::uint32_t i, const DistanceRow& row);
   /// Point i does not count.
@@ -43,7 +45,7 @@ class BoundedFit {
   /// Limit k binds nothing at the present pose.
   void free_limit(std::uint32_t k) { rows_.free_limit(k); }
   /// So many limits; each is set or freed before a step.
-  void set_limits(std::uint32_t count) { rows_.set_limits(count); }
+  void set_limits(std::uint32_t count);
 
   struct Step {
     Status status = Status::ok;  ///< of the program; not ok: no step
@@ -77,6 +79,7 @@ class BoundedFit {
   void adapt_trust(double merit);
   [[nodiscard]] Constraints constraints() const;
   [[nodiscard]] Vec8 set_levels(Constraints& constraints) const;
+  [[nodiscard]] ActiveSetResult solve_corrected();
   [[nodiscard]] ActiveSetResult solve_levels() const;
   [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
   [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
@@ -87,9 +90,12 @@ class BoundedFit {
   MotionBasis basis_;             ///< the unknowns are y in x = directions y
   double reach_ = 0, trust_ = 0;  ///< trust: how far the expansions have held [mm]
   ActiveSet active_;
-  Mat6 curvature_ = Mat6::Zero();  ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points
-  double penalty_ = 0;             ///< of a violated tolerance or limit, above the largest of the multipliers
-  bool curved_ = false;            ///< linear programs have promised too much: their curvature is taken into account
+  Mat6 curvature_ = Mat6::Zero();             ///< sum of multiplier * d^2 (sign d) / dx^2 over the active points
+  std::array<Mat6, kMaxVariables + 1> bend_;  ///< d^2 d / dx^2 of each active point
+  std::uint32_t short_steps_ = 0;             ///< that kept less than they promised, as long as they might be
+  bool refused_ = false;                      ///< the present pose
+  double penalty_ = 0;   ///< of a violated tolerance or limit, above the largest of the multipliers
+  bool curved_ = false;  ///< linear programs have promised too much: their curvature is taken into account
   struct LastStep {
     bool taken = false;
     double merit = 0, promise = 0;  ///< before it, and after it by the expansions

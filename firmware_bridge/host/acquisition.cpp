@@ -115,8 +115,9 @@ void Acquisition::follow_source() {
   const SourceStatus& status = source_.status();
   announce_changes(status);
   take_losses(status);
+  const std::uint32_t planned = status.planned != 0 ? status.planned : settings_.planned;
   shared_.link_figures.publish(
-      {status.link, status.losses, shared_.requests.pause.load(), status.device_fault, status.planned});
+      {status.link, status.losses, shared_.requests.pause.load(), status.device_fault, planned});
   if (!status.finished || finish_taken_) return;
   finish_taken_ = true;
   StreamEvent finish{EventKind::finished, {}};

@@ -16,6 +16,7 @@ struct AcquisitionSettings {
   std::string settings_text;          ///< written into it when the session begins
   bool end_when_finished = false;     ///< the session ends when the device says that its program is finished
   std::chrono::milliseconds idle{0};  ///< it ends when no new point came for so long; 0 = never
+  std::uint32_t planned = 0;          ///< as that of HostSettings
 };
 
 /// Takes points from the source and gives them to the fit and to the journal; acknowledges what is on disk. Runs in

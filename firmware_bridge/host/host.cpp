@@ -143,8 +143,9 @@ Failure Host::start() {
         fmt::format("session resumed: {} events in the journal, {} bytes of an unfinished record cut off",
                     recorded.records, recorded.torn_bytes));
   }
-  const AcquisitionSettings acquisition{identity, settings_.session_directory, running.settings_text,
-                                        settings_.end_when_finished, settings_.idle};
+  const AcquisitionSettings acquisition{
+      identity,         settings_.session_directory, running.settings_text, settings_.end_when_finished, settings_.idle,
+      settings_.planned};
   running.acquisition.emplace(acquisition, running.recorded, source_, running.journal, shared_);
   running.fit.emplace(*running.localizer, settings_.localizer.capacity, settings_.path_refine_points, shared_);
   running.publication.emplace(settings_.localizer.tolerance, settings_.axis, running.server, shared_);

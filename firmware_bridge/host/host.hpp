@@ -23,6 +23,7 @@ struct HostSettings {
   bool end_when_finished = false;  ///< end when the device says that its program is finished
   /// End when no new point came for so long; a fault where the link is lost by then; 0 = never.
   std::chrono::milliseconds idle{0};
+  std::uint32_t planned = 0;  ///< points that will come, where the source does not say; 0 = not known
 };
 
 /// The ready host: takes points from a source, keeps them in the journal of a session, judges them and serves a panel,

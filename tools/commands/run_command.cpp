@@ -214,6 +214,9 @@ void add_session_options(CLI::App& command, RunFlags& flags) {
   command.add_option_function<double>(
       "--until-idle", [&session](double value) { session.until_idle = value; },
       "end when the program is finished or no new point came for so many seconds");
+  command.add_option("--plan", flags.plan,
+                     "how many points will come, or a CSV file of those that the program will probe: the panel then "
+                     "says how far it is");
   command.add_option("--json", flags.json, "write a copy of result.json here; - writes it to standard output");
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -99,6 +100,19 @@ std::chrono::milliseconds idle_of(const SessionSettings& session) {
   return std::chrono::milliseconds(std::llround(seconds * kMillisecondsPerSecond));
 }
 
+/// The number of points that will come: as it is given, or counted in a file of points.
+std::uint32_t planned_points(const std::string& plan, const PointsFormat& format) {
+  if (plan.empty()) return 0;
+  std::uint32_t count = 0;
+  const auto [end, error] = std::from_chars(plan.data(), plan.data() + plan.size(), count);
+  if (end == plan.data() + plan.size() && error == std::errc() && count > 0) return count;
+  if (end != plan.data() && end == plan.data() + plan.size())
+    throw ToolError(fmt::format("--plan {}: give a number of points from 1 to 4294967295, or a file of points", plan));
+  const PointsFile file = read_points_csv(plan, format);
+  if (file.error) throw ToolError(file.error);
+  return static_cast<std::uint32_t>(file.points.size());
+}
+
 /// Nothing that is written may take the place of what is read, nor the copy of the result that of a file of the
 /// session. In the place of the session's own result.json it does no harm.
 void check_outputs(const RunFlags& flags, const SessionSettings& session, const RunPlan& plan) {
@@ -150,6 +164,7 @@ RunPlan plan_run(const RunFlags& flags) {
   plan.host.panel = plan_panel(session.panel, flags.panel);
   plan.linger = std::chrono::milliseconds(std::llround(session.panel.linger.value_or(0) * kMillisecondsPerSecond));
   plan.host.idle = idle_of(session);
+  plan.host.planned = planned_points(flags.plan, plan.fit.points);
   const bool recording = std::holds_alternative<ReplaySettings>(plan.source);
   plan.host.end_when_finished = recording || plan.headless || session.until_idle.has_value();
   check_outputs(flags, session, plan);

@@ -69,6 +69,7 @@ void draw_points(const ScreenView& view, Page& page) {
                .add(" points")
                .to(kValueColumn)
                .add(fmt::format("{}", state.points), Style::strong)
+               .add(state.planned > 0 ? fmt::format(" of {}", state.planned) : "")
                .add(fmt::format("  at {:.1f} a second", view.points_per_second))
                .to(kSecondColumn)
                .add(fmt::format("{} leading edge, {} not counted", state.leading_edge_points, state.rejected)));

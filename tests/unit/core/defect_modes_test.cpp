@@ -62,6 +62,32 @@ TEST_P(DefectModesOn, AnswerOnRandomPatterns) {
 INSTANTIATE_TEST_SUITE_P(AllCases, DefectModesOn, ::testing::ValuesIn(reference_case_names()),
                          [](const auto& one) { return one.param; });
 
+/// Patterns whose programs once ended nowhere: along a curved ridge of the largest distance, from a least-squares fit
+/// that feet on two sheets left no rest, and after limits that a program rested on were gone.
+TEST(DefectModes, AnswerWhereStepsWereShortAndFeetRestless) {
+  struct Hard {
+    std::uint64_t seed;
+    FitMode mode;
+    bool directed;
+  };
+  constexpr Hard kHard[] = {{67, FitMode::min_tolerance, false},
+                            {251, FitMode::min_tolerance, true},
+                            {107, FitMode::minimax, true},
+                            {107, FitMode::range, true},
+                            {43, FitMode::minimax, true}};
+  const ReferenceCase c = read_case("dtmb4119");
+  const DefectPatterns patterns(c, "full");
+  for (const Hard& hard : kHard) {
+    const DefectPattern pattern = patterns.make(hard.seed);
+    LocalizerConfig config = config_of(c, pattern.points.size());
+    config.mode = hard.mode;
+    config.use_approach = hard.directed;
+    config.tolerance.leading_edge_mm = pattern.leading_edge_mm;
+    config.tolerance.rest_mm = pattern.rest_mm;
+    expect_answer(reference_design(c.name), config, pattern.points, WayIn::batch, pattern.text);
+  }
+}
+
 /// A constrained fit whose bounds the least-squares optimum meets is that optimum: no program runs.
 TEST(DefectModes, ConstrainedIsTheLeastSquaresOptimumWhereThatMeetsTheBounds) {
   const ReferenceCase c = read_case("dtmb4119");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/fit/existence_row.hpp"
 #include "core/fit/facing_row.hpp"
 #include "tests/support/localizer_fixtures.hpp"
 #include "tests/unit/core/owned_parts.hpp"
@@ -200,6 +201,39 @@ TEST(FacingRow, AgreesWithDifferences) {
       constexpr double kStep = 1e-5;
       const double difference = (facing_at(kStep * Vec6::Unit(k)).facing - facing_at(-kStep * Vec6::Unit(k)).facing);
       EXPECT_NEAR(row.gradient[k], difference / (2.0 * kStep), 1e-4 * (1.0 + row.gradient.norm())) << i << " " << k;
+    }
+    ++looked;
+  }
+  EXPECT_GT(looked, 10);
+}
+
+TEST(ExistenceRow, AgreesWithDifferences) {
+  Descending d;
+  const FitProblem& problem = d.parts->problem;
+  int looked = 0;
+  for (std::uint32_t i = 0; i < d.parts->store.size(); i += 3) {
+    StoredPoint point = d.parts->store[i];
+    const Measurement there = d.parts->finder.find(point, d.pose, Search::keep);
+    if (there.foot.kind != FootKind::interior) continue;
+    const Vec3 foot = there.projection.at.s, normal = there.foot.normal;
+    const auto row_at = [&](double height, const Vec6& x) {
+      const Vec3 r = foot + height * normal;
+      Projection projection = project_local(problem.surface, r, there.projection.place);
+      const Vec3 moved_r = apply(moved(Pose(), x, problem.frame), r);
+      projection = project_local(problem.surface, moved_r, projection.place);
+      return existence_row(problem.surface, projection, foot_of(problem.surface, projection, 0.0).normal, moved_r,
+                           problem.frame);
+    };
+    EXPECT_NEAR(row_at(0.0, Vec6::Zero()).existence, 1.0, 1e-9) << "on the surface";
+    const double height = -0.005 * problem.frame.length;
+    const ExistenceRow row = row_at(height, Vec6::Zero());
+    if (!(row.existence > 0.5)) continue;  // near the centre of curvature, or beyond it on another sheet
+    for (int k = 0; k < 6; ++k) {
+      constexpr double kStep = 1e-4;
+      const double above = row_at(height, kStep * Vec6::Unit(k)).existence;
+      const double below = row_at(height, -kStep * Vec6::Unit(k)).existence;
+      EXPECT_NEAR(row.gradient[k], (above - below) / (2.0 * kStep), 1e-4 * (1.0 + row.gradient.norm()))
+          << i << " " << k;
     }
     ++looked;
   }

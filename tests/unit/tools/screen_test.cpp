@@ -56,6 +56,15 @@ TEST(BridgeScreen, SaysWhatTheOperatorNeeds) {
   }
 }
 
+TEST(BridgeScreen, SaysHowManyPointsWillComeWhereThatIsKnown) {
+  ScreenView view = known_view();
+  view.state.points = 1234;
+  view.state.planned = 0;
+  EXPECT_EQ(joined(draw_screen(view, kScreenWidth, kScreenHeight)).find("1234 of"), std::string::npos);
+  view.state.planned = 70287;
+  EXPECT_NE(joined(draw_screen(view, kScreenWidth, kScreenHeight)).find("1234 of 70287"), std::string::npos);
+}
+
 TEST(BridgeScreen, NamesThePointsThatCannotBeMetTogether) {
   ScreenView view = known_view();
   view.state.alarms = kAlarmInfeasible | kAlarmLeadingEdgeOut;
