@@ -51,7 +51,7 @@ RC_GTEST_PROP(Pose, EulerAnglesGiveTheMatrixOfTheThesis, ()) {
   Mat3 c;
   c << ct * cf, -ct * sf, st, cp * sf + sp * st * cf, cp * cf - sp * st * sf, -sp * ct, sp * sf - cp * st * cf,
       sp * cf + cp * st * sf, cp * ct;
-  RC_ASSERT(largest(rotation_of({psi, theta, phi}) - c) < 1e-15);
+  RC_ASSERT(largest(rotation_of({psi, theta, phi}) - c) < 2e-15);  // of 3,000,000 one in 75,000 is above 1e-15
   const EulerAngles back = euler_angles(c);
   RC_ASSERT(largest(rotation_of(back) - c) < 1e-14);
   RC_ASSERT(std::abs(back.theta - theta) < 1e-7);
