@@ -41,8 +41,8 @@ void sort_like(const RidgedSection& before, RidgedSection& section) {
     std::optional<SectionRidge>* nearest = nullptr;
     for (std::optional<SectionRidge>& candidate : found) {
       if (!candidate || gap_between(*candidate, *before.ridges[to]) > reach) continue;
-      const bool nearer =
-          nearest == nullptr || gap_between(*candidate, *before.ridges[to]) < gap_between(**nearest, *before.ridges[to]);
+      const bool nearer = nearest == nullptr ||
+                          gap_between(*candidate, *before.ridges[to]) < gap_between(**nearest, *before.ridges[to]);
       if (nearer) nearest = &candidate;
     }
     if (nearest == nullptr) return;
@@ -84,13 +84,14 @@ double RidgedBlade::length_of(std::size_t ridge) const {
   return length;
 }
 
-const SectionRidge& RidgedBlade::middle_of(std::size_t ridge) const { return *sections[sections.size() / 2].ridges[ridge]; }
+const SectionRidge& RidgedBlade::middle_of(std::size_t ridge) const {
+  return *sections[sections.size() / 2].ridges[ridge];
+}
 
 double RidgedBlade::distance_of(std::size_t ridge, const Vec3& place) const {
   double distance = std::numeric_limits<double>::infinity();
   for (const RidgedSection& section : sections) {
-    if (section.ridges[ridge])
-      distance = std::min(distance, (section.ridges[ridge]->place.point - place).norm());
+    if (section.ridges[ridge]) distance = std::min(distance, (section.ridges[ridge]->place.point - place).norm());
   }
   return distance;
 }

@@ -24,8 +24,8 @@ class PatchEdges {
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
   /// The place on another edge, or on another one of the same patch, where the surface goes on beyond `place`; nothing
-  /// at an outer edge. Both edges must run in about the same direction there, not farther apart than the gap of a joint.
-  /// Cost: some microseconds an edge whose box is near.
+  /// at an outer edge. Both edges must run in about the same direction there, not farther apart than the gap of a
+  /// joint. Cost: some microseconds an edge whose box is near.
   [[nodiscard]] std::optional<EdgePlace> beyond(const EdgePlace& place) const;
 
  private:

@@ -9,7 +9,8 @@
 namespace bladefit {
 namespace {
 
-/// Steps along one patch to begin with; a step over which the normal turns by more than kTurn is halved, up to so often.
+/// Steps along one patch to begin with; a step over which the normal turns by more than kTurn is halved, up to so
+/// often.
 constexpr int kSteps = 32, kHalvings = 14;
 constexpr double kTurn = 0.02;  // [rad]
 /// Patches that a section may cross.
