@@ -29,9 +29,9 @@ struct ShowFlags {
 };
 
 /// Of the fit options those that say something of a design and of where points are on it.
-constexpr std::array<std::string_view, 10> kShowOptions = {"leading_edge", "outward",   "face",    "allow_missing",
-                                                           "probe_radius", "units",     "columns", "ignore_approach",
-                                                           "axis",         "tip_radius"};
+constexpr std::array<std::string_view, 12> kShowOptions = {
+    "leading_edge", "leading_edge_near", "rotation",        "outward", "face",      "allow_missing", "probe_radius",
+    "units",        "columns",           "ignore_approach", "axis",    "tip_radius"};
 
 constexpr const char* kShowDescription = "Show a design in a web browser, with points and the leading-edge zone on it";
 
@@ -52,20 +52,16 @@ Exit codes: 0 done, 2 wrong use, bad design or bad points, 3 a file cannot be re
 std::vector<PagePoint> points_on(const Surface& surface, const FitPlan& plan, const std::vector<ProbePoint>& measured) {
   std::vector<PagePoint> points;
   const LocalizerConfig& fit = plan.localizer;
-  Projection before;
-  const Projection* hint = nullptr;
   for (const ProbePoint& probed : measured) {
     ProjectionQuery query{Vec3(probed.position.data()), Vec3::Zero(), 0};
     if (fit.use_approach) query.approach = Vec3(probed.approach.data());
-    before = project_global(surface, query, hint).nearest;
-    hint = &before;
-    const std::uint32_t patch = surface.span(before.place.span).patch;
-    const SurfacePoint foot = surface.evaluate(before.place);
+    const SurfacePlace place = project_global(surface, query, nullptr).nearest.place;
+    const std::uint32_t patch = surface.span(place.span).patch;
+    const SurfacePoint foot = surface.evaluate(place);
     const Vec3 arm = query.point - foot.s;
-    const double side = surface.outward(before.place, foot).dot(arm) < 0.0 ? -1.0 : 1.0;
-    points.push_back({points.size(), query.point, patch, before.place.u, before.place.v,
-                      side * arm.norm() - fit.probe_radius_mm,
-                      region_at(fit.tolerance, patch, before.place.u, before.place.v) == Region::leading_edge});
+    const double side = surface.outward(place, foot).dot(arm) < 0.0 ? -1.0 : 1.0;
+    points.push_back({points.size(), query.point, patch, place.u, place.v, side * arm.norm() - fit.probe_radius_mm,
+                      region_at(fit.tolerance, patch, place.u, place.v) == Region::leading_edge});
   }
   return points;
 }

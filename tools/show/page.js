@@ -43,10 +43,10 @@ for (const kind of Object.keys(lineItems)) for (const line of content.lines) {
   if (line.kind !== kind || !line.ends) continue;
   const ends = floats(line.ends);
   lineItems[kind].push(view.add("line", { a: [ends, 3, 0, 24, 0], b: [ends, 3, 0, 24, 12] },
-    { count: ends.length / 6, colour: rgba(kColours[kind]), width: kWidths[kind], patch: line.patch }));
+    { count: ends.length / 6, colour: rgba(kColours[kind]), width: kWidths[kind], patch: line.patch, ahead: kind === "ridge" ? 0.004 : 0 }));
 }
 const pointItem = points.numbers.length ? view.add("point", { place: [points.places, 3], zone: [points.zones, 1] },
-  { count: points.numbers.length, colour: rgba(kColours.point), other: rgba(kColours.pointInZone), width: 8 }) : null;
+  { count: points.numbers.length, colour: rgba(kColours.point), other: rgba(kColours.pointInZone), width: 6.5 }) : null;
 
 function addMarks(kind) {
   for (const line of content.lines) if (line.kind === kind && line.label) {
@@ -56,7 +56,7 @@ function addMarks(kind) {
 }
 addMarks("ridge");
 faces.forEach((face, k) => [0.3, 0.7].forEach((share) => {
-  const place = Math.floor(share * face.u.length) * face.v.length + Math.floor(0.4 * face.v.length);
+  const place = Math.max(0, face.u.findIndex((u) => u >= share)) * face.v.length + Math.floor(0.42 * face.v.length);
   view.marks.push({ label: nameOf(face.patch), place: at(face.places, place), normal: unit(at(face.normals, place)), colour: "#1a1d21",
     bold: true, shift: 0, shown: () => faceItems[k].shown });
 }));
@@ -88,7 +88,7 @@ for (const [name, [direction, up]] of Object.entries(turns))
   element("button", { type: "button", textContent: name, onclick: () => show(direction, up) }, document.getElementById("turns"));
 
 // --- legend ---
-document.getElementById("units").textContent = `lengths in ${units}` + (content.radius > 0 ? ` · R = ${content.radius.toPrecision(6)} ${units}` : "");
+document.getElementById("units").textContent = `lengths in ${units === "in" ? "inches" : units}` + (content.radius > 0 ? ` · R = ${content.radius.toPrecision(6)} ${units}` : "");
 const legend = document.getElementById("legend");
 function entry(items, swatch, colour, words) {
   if (items.length === 0) return;

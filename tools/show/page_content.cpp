@@ -12,7 +12,8 @@ constexpr std::size_t kSections = 65;
 
 /// Iso-lines at these steps, fewer where there are many patches.
 double step_for(std::size_t patches) {
-  if (patches <= 4) return 0.1;
+  if (patches == 1) return 0.1;
+  if (patches <= 4) return 0.2;
   return patches <= 12 ? 0.25 : 1.0;
 }
 

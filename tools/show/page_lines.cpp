@@ -10,8 +10,8 @@ namespace {
 
 /// Pieces of a line that is drawn on a patch.
 constexpr std::size_t kSteps = 96;
-/// Where along a line of constant u, or of constant v, its label stands; two places, one for each side of the blade.
-constexpr double kLabelAcross[2] = {0.55, 0.55};
+/// Where along a line of constant u its label stands, and the two places along one of constant v, one for each side.
+constexpr double kLabelAcross = 0.55;
 constexpr double kLabelAlong[2] = {0.27, 0.73};
 
 void add_piece(PageLine& line, const Vec3& a, const Vec3& b) {
@@ -85,7 +85,7 @@ std::vector<PageLine> iso_lines(const Surface& surface, const FaceMesh& mesh, do
       if (k == 0 || k == count) {
         line.kind = LineKind::edge;
       } else if (constant_u) {
-        put_label(surface, line, constant, kLabelAcross[0], fmt::format("u {:g}", constant));
+        put_label(surface, line, constant, kLabelAcross, fmt::format("u {:g}", constant));
       } else {
         put_label(surface, line, kLabelAlong[0], constant, fmt::format("v {:g}", constant));
       }

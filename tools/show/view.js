@@ -136,7 +136,7 @@ class View {
     gl.uniform2f(at("size"), w, h);
     gl.uniform1f(at("scale"), this.scale);
     gl.uniform1f(at("depth"), 2 * this.reach);
-    gl.uniform1f(at("ahead"), kAhead[item.kind] || 0);
+    gl.uniform1f(at("ahead"), item.ahead || kAhead[item.kind] || 0);
     gl.uniform4fv(at("colour"), item.colour);
     if (item.other) gl.uniform4fv(at("other"), item.other);
     if (item.width) gl.uniform1f(at("width"), item.kind === "point" ? item.width * ratio : item.width);
