@@ -12,7 +12,7 @@ namespace bladefit {
 namespace {
 
 /// Sections on which the ridge is followed, and places of ridges that an error tells.
-constexpr std::size_t kZoneSections = 129, kMostTold = 6;
+constexpr std::size_t kZoneSections = 513, kMostTold = 6;
 
 /// One ridge of a design.
 struct RidgeChoice {
@@ -34,8 +34,9 @@ std::string place_text(const RidgeChoice& choice, const FitPlan& plan) {
   for (std::size_t k = 0; k < std::min(choices.size(), kMostTold); ++k)
     places += (k == 0 ? "" : k + 1 == choices.size() ? " and " : ", ") + place_text(choices[k], plan);
   if (choices.size() > kMostTold) places += " ...";
-  throw ToolError(fmt::format("--leading-edge auto: {} ridges may be the leading edge, in their middles at {}; {}",
-                              choices.size(), places, fix));
+  throw ToolError(fmt::format("--leading-edge auto: {} may be the leading edge, in the middle at {}; {}",
+                              choices.size() == 1 ? "one ridge" : fmt::format("{} ridges", choices.size()), places,
+                              fix));
 }
 
 /// The point of a section farthest from a ridge: where there is one ridge only, the other edge.

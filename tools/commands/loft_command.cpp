@@ -7,7 +7,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "config/fit_text.hpp"
 #include "tools/design/iges/iges_writer.hpp"
 #include "tools/design/loft/blade_table.hpp"
 #include "tools/design/loft/leading_edge.hpp"
@@ -27,7 +29,7 @@ constexpr double kShareOfTolerance = 0.1, kLargestOff_mm = 0.1;
 constexpr double kZone = 0.05;
 
 struct LoftFlags {
-  std::string sections, table, output, units, foil = std::string(kFoilWords[0]), hand = "right";
+  std::string sections, table, output, units, foil = std::string(kFoilWords[0]), hand = std::string(kRotationWords[0]);
   double diameter = 0;
   std::optional<double> tolerance;
   LoftSettings settings;
@@ -110,7 +112,7 @@ BladeSections tabulated(const LoftFlags& flags) {
   const BladeTable table = parse_blade_table(read_text(flags.table), flags.table);
   BladeShape shape{.diameter = flags.diameter};
   shape.foil = flags.foil == kFoilWords[0] ? Foil::naca66 : Foil::naca16;
-  shape.left_handed = flags.hand == "left";
+  shape.left_handed = flags.hand == kRotationWords[static_cast<std::size_t>(Rotation::left)];
   return sections_of(table, shape);
 }
 
@@ -166,7 +168,7 @@ void add_loft_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(std::vector<std::string>(kFoilWords.begin(), kFoilWords.end())))
       ->capture_default_str();
   command->add_option("--hand", flags->hand, "Which way the propeller of --table turns, seen from aft: right or left")
-      ->check(CLI::IsMember({"right", "left"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kRotationWords.begin(), kRotationWords.end())))
       ->capture_default_str();
   command->add_option("-o,--output", flags->output, "IGES file to write")->required()->type_name("OUT.igs");
   command->add_option("--units", flags->units, "Unit of the sections and of the IGES file: mm or in")
