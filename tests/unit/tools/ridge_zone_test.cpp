@@ -20,6 +20,8 @@ namespace {
 using testing::CompiledDesign;
 
 constexpr double kHalfLength = 50, kHalfWidth = 5, kSpan = 100;
+/// Of the ellipse over the 45 degrees of its normal about the end of the major axis.
+constexpr double kMeanRadius = 0.5416;
 
 /// An elliptic cylinder along z, in one closed patch: u around it from the end of the minor axis, v along it. Its
 /// middle is at `x` and `y`.
@@ -65,8 +67,8 @@ TEST(BladeRidges, AreTheEndsOfAnEllipse) {
     const SectionRidge& middle = blades[0].middle_of(ridge);
     EXPECT_NEAR(std::abs(middle.place.point.x() - 7), kHalfLength, 2e-3);
     EXPECT_NEAR(middle.place.point.y(), 80, 0.01);
-    // Over 20 degrees the mean radius is a little more than that of the end, b^2 / a.
-    EXPECT_NEAR(middle.radius_mm, kHalfWidth * kHalfWidth / kHalfLength, 0.02);
+    // Over 45 degrees the mean radius is a little more than that of the end, b^2 / a: by numerical integration 0.5416.
+    EXPECT_NEAR(middle.radius_mm, kMeanRadius, 2e-3);
     EXPECT_NEAR(blades[0].length_of(ridge), kSpan, 1e-3);
     sides += middle.place.point.x() - 7;
   }
@@ -111,11 +113,11 @@ TEST(RidgeZone, ReachesAsFarAsAskedOnBothSides) {
 /// that is told.
 TEST(RidgeZone, BoxesHoldTheLimitsWithinTheErrorTold) {
   const auto& surface = testing::reference_design("dtmb4119").surface();
-  const auto blades = find_ridges(surface, 129);
+  const auto blades = find_ridges(surface, 513);
   ASSERT_EQ(blades.size(), 1U);
   const RidgeZone zone = ridge_zone(surface, blades[0], 0, {5, false}, 96);
   EXPECT_LE(zone.boxes.size(), 96U);
-  EXPECT_LT(zone.error_mm, 0.05);
+  EXPECT_LT(zone.error_mm, 0.1);
   for (const ParameterBox& box : zone.boxes) {
     for (const double v : {box.v_min + 1e-9, 0.5 * (box.v_min + box.v_max), box.v_max - 1e-9}) {
       const SectionLine line = section_line(PatchEdges(surface), {0, true, v});

@@ -55,17 +55,6 @@ double line_10(double x) {
   return part(x) + part(1 - x);
 }
 
-/// The greatest value of a line that rises and falls once.
-template <class Line>
-double greatest(Line line) {
-  double low = 0, high = 1;
-  for (int k = 0; k < 200; ++k) {  // by thirds
-    const double first = low + (high - low) / 3, second = high - (high - low) / 3;
-    (line(first) < line(second) ? low : high) = line(first) < line(second) ? first : second;
-  }
-  return line(0.5 * (low + high));
-}
-
 }  // namespace
 
 double half_thickness(Foil foil, double x) {
@@ -78,7 +67,7 @@ double half_thickness(Foil foil, double x) {
 double nose_radius(Foil foil) { return foil == Foil::naca66 ? kNose66 : 0.5 * 0.989665 * 0.989665; }
 
 double mean_line(Foil foil, double x) {
-  static const double kMost08 = greatest(line_08), kMost10 = std::numbers::ln2;
+  static const double kMost08 = line_08(0.5), kMost10 = std::numbers::ln2;
   return foil == Foil::naca66 ? line_08(x) / kMost08 : line_10(x) / kMost10;
 }
 

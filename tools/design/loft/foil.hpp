@@ -22,8 +22,9 @@ inline constexpr std::array<std::string_view, 2> kFoilWords = {"naca66", "naca16
 /// Radius of the leading edge: that much times (thickness / chord)^2 of the chord.
 [[nodiscard]] double nose_radius(Foil foil);
 
-/// The mean line at x, as a share of the greatest camber: I. H. Abbott, A. E. von Doenhoff, Theory of Wing Sections,
-/// 1959, eq. 4.26 and 4.27, for a = 0.8 and a = 1, without the turn by the ideal angle.
+/// The mean line at x, as a share of the camber, which is taken at half chord as Brockett does (for a = 0.8 the line
+/// rises by 0.07 % more a little behind it): I. H. Abbott, A. E. von Doenhoff, Theory of Wing Sections, 1959, eq. 4.26
+/// and 4.27, for a = 0.8 and a = 1, without the turn by the ideal angle.
 [[nodiscard]] double mean_line(Foil foil, double x);
 
 }  // namespace bladefit

@@ -9,7 +9,7 @@ namespace bladefit {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kBend = 20.0 * kDegree;            ///< by which the normal turns in the part whose middle is the ridge
+constexpr double kBend = 45.0 * kDegree;            ///< by which the normal turns in the part whose middle is the ridge
 constexpr double kReach = 0.1, kApart = 1.0 / 6.0;  ///< shares of the section
 
 /// The turning of a section as a function of its arc; of a closed one over two rounds, so that no part of it is cut.

@@ -12,7 +12,7 @@ struct SectionRidge {
 };
 
 /// The ridges of a section, at most two, the sharpest first. A ridge is the middle of the shortest part over which the
-/// normal turns by 20 degrees, where it turns by `least_degrees` or more within a tenth of the section. So it is where
+/// normal turns by 45 degrees, where it turns by `least_degrees` or more within a tenth of the section. So it is where
 /// the curvature is greatest, without the waves that a fitted spline has within its rounding; at a crease it is the
 /// crease. The two are a sixth of the section apart, or more. Cost: linear in the points.
 [[nodiscard]] std::vector<SectionRidge> section_ridges(const Surface& surface, const SectionLine& section,
