@@ -15,55 +15,42 @@ constexpr std::size_t kTrial = 9;
 constexpr double kInset = 1e-6;
 /// What bends by so much is an edge, and what goes on from an edge if it bends by so much [degrees].
 constexpr double kEdge = 80, kGoesOn = 45;
-/// A ridge does not move farther from one section to the next than this share of the section.
-constexpr double kLargestStep = 0.15;
+/// In shares of a section, a ridge is no farther from where it was on the section before than kStay, and kMove for the
+/// whole blade: it follows one bend where a blunt nose has several.
+constexpr double kStay = 0.001, kMove = 0.2;
 
-RidgedSection section_at(const PatchEdges& edges, IsoLine start, double constant, double least_degrees) {
+double gap_between(const SectionRidge& a, const SectionRidge& b) { return (a.place.point - b.place.point).norm(); }
+
+RidgedSection section_at(const PatchEdges& edges, IsoLine start, double constant) {
   start.constant = std::clamp(constant, kInset, 1.0 - kInset);
   RidgedSection section;
   section.constant = constant;
   section.line = section_line(edges, start);
-  const std::vector<SectionRidge> found = section_ridges(edges.surface(), section.line, least_degrees);
-  for (std::size_t k = 0; k < found.size(); ++k) section.ridges[k] = found[k];
   return section;
 }
 
-double gap_between(const SectionRidge& a, const SectionRidge& b) { return (a.place.point - b.place.point).norm(); }
-
-/// Puts the ridges of `section` into the order of those of `before`, a neighbour, and drops what is not near them.
-void sort_like(const RidgedSection& before, RidgedSection& section) {
-  std::optional<SectionRidge> found[2] = {section.ridges[0], section.ridges[1]};
-  const double reach = kLargestStep * std::max(section.line.length(), before.line.length());
-  section.ridges[0].reset();
-  section.ridges[1].reset();
-  const auto take = [&](std::size_t to) {
-    if (!before.ridges[to]) return;
-    std::optional<SectionRidge>* nearest = nullptr;
-    for (std::optional<SectionRidge>& candidate : found) {
-      if (!candidate || gap_between(*candidate, *before.ridges[to]) > reach) continue;
-      const bool nearer = nearest == nullptr ||
-                          gap_between(*candidate, *before.ridges[to]) < gap_between(**nearest, *before.ridges[to]);
-      if (nearer) nearest = &candidate;
-    }
-    if (nearest == nullptr) return;
-    section.ridges[to] = *nearest;
-    nearest->reset();
-  };
-  take(0);
-  take(1);
+/// The ridges of `section` that go on from those of `before`, a neighbour.
+void follow_ridges(const Surface& surface, const RidgedSection& before, double reach, RidgedSection& section) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!before.ridges[k]) continue;
+    const double share = before.ridges[k]->place.arc / before.line.length();
+    section.ridges[k] = ridge_going_on(surface, section.line, share, reach, kGoesOn);
+  }
 }
 
 RidgedBlade blade_along(const PatchEdges& edges, const IsoLine& start, std::size_t count) {
   RidgedBlade blade{start, {}, 0};
+  for (std::size_t k = 0; k < count; ++k)
+    blade.sections.push_back(section_at(edges, start, static_cast<double>(k) / static_cast<double>(count - 1)));
   const std::size_t middle = count / 2;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double constant = static_cast<double>(k) / static_cast<double>(count - 1);
-    blade.sections.push_back(section_at(edges, start, constant, k == middle ? kEdge : kGoesOn));
-  }
-  for (std::size_t k = middle; k + 1 < count; ++k) sort_like(blade.sections[k], blade.sections[k + 1]);
-  for (std::size_t k = middle; k > 0; --k) sort_like(blade.sections[k], blade.sections[k - 1]);
-  const auto& ridges = blade.sections[middle].ridges;
-  blade.count = (ridges[0] ? 1U : 0U) + (ridges[1] ? 1U : 0U);
+  const std::vector<SectionRidge> found = section_ridges(edges.surface(), blade.sections[middle].line, kEdge);
+  blade.count = found.size();
+  for (std::size_t k = 0; k < found.size(); ++k) blade.sections[middle].ridges[k] = found[k];
+  const double reach = kStay + kMove / static_cast<double>(count - 1);
+  for (std::size_t k = middle; k + 1 < count; ++k)
+    follow_ridges(edges.surface(), blade.sections[k], reach, blade.sections[k + 1]);
+  for (std::size_t k = middle; k > 0; --k)
+    follow_ridges(edges.surface(), blade.sections[k], reach, blade.sections[k - 1]);
   return blade;
 }
 

@@ -42,16 +42,17 @@ class Turning {
     return closed_ ? std::min(direct, length_ - direct) : direct;
   }
 
-  /// The middle of the shortest part that turns by kBend, not nearer to `taken` than kApart of the section; with the
-  /// length of that part. Nothing where the section turns by less.
-  [[nodiscard]] std::optional<std::pair<double, double>> shortest(std::optional<double> taken) const {
+  /// The middle of the shortest part that turns by kBend, where `allowed`; with the length of that part. Nothing where
+  /// the section turns by less.
+  template <class Allowed>
+  [[nodiscard]] std::optional<std::pair<double, double>> shortest(Allowed allowed) const {
     std::optional<std::pair<double, double>> best;
     for (std::size_t k = 0; k < arcs_.size() && turns_[k] + kBend <= turns_.back(); ++k) {
       const double part = arc_of(turns_[k] + kBend) - arcs_[k];
       if (best && part >= best->second) continue;
       double middle = arc_of(turns_[k] + 0.5 * kBend);
       if (closed_ && middle >= length_) middle -= length_;
-      if (taken && apart(middle, *taken) < kApart * length_) continue;
+      if (!allowed(middle)) continue;
       best = {middle, part};
     }
     return best;
@@ -81,12 +82,23 @@ std::vector<SectionRidge> section_ridges(const Surface& surface, const SectionLi
   const Turning turning(section);
   std::optional<double> taken;
   for (int k = 0; k < 2; ++k) {
-    const auto found = turning.shortest(taken);
+    const auto found =
+        turning.shortest([&](double arc) { return !taken || turning.apart(arc, *taken) >= kApart * turning.length(); });
     if (!found || turning.within(found->first, kReach * turning.length()) < least_degrees * kDegree) break;
     ridges.push_back({place_on(surface, section, found->first), found->second / kBend});
     taken = found->first;
   }
   return ridges;
+}
+
+std::optional<SectionRidge> ridge_going_on(const Surface& surface, const SectionLine& section, double share,
+                                           double reach, double least_degrees) {
+  if (!(section.length() > 0.0)) return std::nullopt;
+  const Turning turning(section);
+  const double length = turning.length();
+  const auto found = turning.shortest([&](double arc) { return turning.apart(arc, share * length) <= reach * length; });
+  if (!found || turning.within(found->first, kReach * length) < least_degrees * kDegree) return std::nullopt;
+  return SectionRidge{place_on(surface, section, found->first), found->second / kBend};
 }
 
 SectionSides sides_of(const SectionLine& section, const SectionRidge& ridge, const SectionRidge* other) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "tools/design/ridge/section_line.hpp"
@@ -17,6 +18,11 @@ struct SectionRidge {
 /// crease. The two are a sixth of the section apart, or more. Cost: linear in the points.
 [[nodiscard]] std::vector<SectionRidge> section_ridges(const Surface& surface, const SectionLine& section,
                                                        double least_degrees);
+
+/// The ridge of a section that goes on from one of a neighbouring section, whose arc was the share `share` of its
+/// length: the same, sought no farther from there than `reach` of the length. Nothing where it turns by less there.
+[[nodiscard]] std::optional<SectionRidge> ridge_going_on(const Surface& surface, const SectionLine& section,
+                                                         double share, double reach, double least_degrees);
 
 /// Length from one ridge to the other, or to the end of the section, on the side to which the arc rises and on the
 /// other [mm]: as far as a zone about the ridge may reach.
