@@ -76,7 +76,8 @@ FaceMesh mesh_over(const Surface& surface, std::uint32_t patch, std::vector<doub
 
 std::vector<FaceMesh> mesh_faces(const Surface& surface) {
   const std::size_t patches = surface.image().patches().size();
-  const auto even = static_cast<std::size_t>(std::sqrt(static_cast<double>(kMostPoints) / static_cast<double>(patches)));
+  const auto even =
+      static_cast<std::size_t>(std::sqrt(static_cast<double>(kMostPoints) / static_cast<double>(patches)));
   const std::size_t lines = std::clamp(even, kLeastLines, kMostLines);
   std::vector<FaceMesh> meshes;
   for (std::uint32_t patch = 0; patch < patches; ++patch) {
