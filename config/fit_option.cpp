@@ -19,9 +19,12 @@ constexpr double kLargest = 1e9;  ///< accepted length [units] or ratio
 
 constexpr NumberOption length_above_0(std::optional<double> S::*value) { return {value, 0, kLargest, true}; }
 
+/// The zones that are boxes; the others depend on the design.
 void apply_boxes(const S& s, double /*mm*/, C& c) {
-  c.tolerance.box_count = static_cast<std::uint32_t>(s.leading_edge->size());
-  std::ranges::copy(*s.leading_edge, c.tolerance.boxes.begin());
+  c.tolerance.box_count = 0;
+  for (const EdgeZone& zone : *s.leading_edge) {
+    if (zone.reach == 0) c.tolerance.boxes.at(c.tolerance.box_count++) = zone.box;
+  }
 }
 
 /// `ratio` has two uses here: it gives the rest tolerance where that is not given, and it is the ratio that the mode
@@ -60,10 +63,18 @@ constexpr std::array kOptions{
               "tolerance that can just be met, with ratio times it on the rest; constrained: the sum of squares with "
               "every distance within its tolerance",
               "\"least_squares\"", true},
-    FitOption{"leading_edge", BoxesOption{&S::leading_edge}, apply_boxes,
+    FitOption{"leading_edge", ZonesOption{&S::leading_edge}, apply_boxes,
               "leading-edge region: [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6, a box between two isoparameter lines; "
-              "PATCH counts from 0; may be several",
+              "PATCH counts from 0; or auto:5mm, auto:3%: as far along the sections on either side of the ridge of "
+              "greatest curvature, % of the chord; may be several",
               "[\"0:u:0.4:0.6\"]", true},
+    FitOption{"leading_edge_near", PlaceOption{&S::leading_edge_near}, nullptr,
+              "x,y,z in units: with auto, the ridge nearest to this place of the design is the leading edge",
+              "\"12.5,-40,85\""},
+    FitOption{"rotation", ChoiceOption<Rotation>{&S::rotation, kRotationWords}, nullptr,
+              "right or left: with auto, the leading edge is the ridge that goes first where the propeller turns right "
+              "(clockwise) or left, seen along the direction of the axis",
+              "\"right\""},
     FitOption{"tolerance", length_above_0(&S::tolerance), apply_tolerance,
               "distance allowed at the leading edge, in units", "0.1", true},
     FitOption{"rest_tolerance", length_above_0(&S::rest_tolerance), apply_rest_tolerance,
@@ -182,14 +193,21 @@ Failure find_word(std::span<const std::string_view> words, std::string_view text
   return {};
 }
 
-Failure set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings) {
+Failure set(const ZonesOption& option, const std::vector<std::string>& given, FitSettings& settings) {
   if (given.size() > ToleranceMap::kMaxBoxes)
-    return bad_input(fmt::format("{} boxes, at most {} are possible", given.size(), ToleranceMap::kMaxBoxes));
-  std::vector<ParameterBox> boxes(given.size());
+    return bad_input(fmt::format("{} zones, at most {} are possible", given.size(), ToleranceMap::kMaxBoxes));
+  std::vector<EdgeZone> zones(given.size());
   for (std::size_t k = 0; k < given.size(); ++k) {
-    if (const Failure error = parse_leading_edge(given[k], boxes[k])) return error;
+    if (const Failure error = parse_edge_zone(given[k], zones[k])) return error;
   }
-  settings.*option.value = std::move(boxes);
+  settings.*option.value = std::move(zones);
+  return {};
+}
+
+Failure set(const PlaceOption& option, const std::string& given, FitSettings& settings) {
+  Vec3 place;
+  if (const Failure error = parse_place(given, place)) return error;
+  settings.*option.value = place;
   return {};
 }
 

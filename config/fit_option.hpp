@@ -34,10 +34,16 @@ struct ChoiceOption {
   std::span<const std::string_view> words;
 };
 
-/// Leading-edge boxes, each as parse_leading_edge() reads it.
-struct BoxesOption {
+/// Leading-edge zones, each as parse_edge_zone() reads it.
+struct ZonesOption {
   using Given = std::vector<std::string>;
-  std::optional<std::vector<ParameterBox>> FitSettings::*value;
+  std::optional<std::vector<EdgeZone>> FitSettings::*value;
+};
+
+/// As parse_place() reads it.
+struct PlaceOption {
+  using Given = std::string;
+  std::optional<Vec3> FitSettings::*value;
 };
 
 /// As parse_outward() reads it.
@@ -98,10 +104,12 @@ struct FlagOption {
 using FitOptionKind =
     std::variant<NumberOption, ChoiceOption<FitMode>, OutwardKind, NamesOption, ChoiceOption<Unit>,
                  ChoiceOption<RegionPolicy>, ChoiceOption<EdgePolicy>, ChoiceOption<Loss>, ChoiceOption<DecisionRule>,
-                 MpeOption, BoxesOption, WindowOption, LocksOption, AxisOption, PathOption, ColumnsOption, FlagOption>;
+                 MpeOption, ZonesOption, PlaceOption, ChoiceOption<Rotation>, WindowOption, LocksOption, AxisOption,
+                 PathOption, ColumnsOption, FlagOption>;
 
 [[nodiscard]] Failure set(const NumberOption& option, double given, FitSettings& settings);
-[[nodiscard]] Failure set(const BoxesOption& option, const std::vector<std::string>& given, FitSettings& settings);
+[[nodiscard]] Failure set(const ZonesOption& option, const std::vector<std::string>& given, FitSettings& settings);
+[[nodiscard]] Failure set(const PlaceOption& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const OutwardKind& option, const std::string& given, FitSettings& settings);
 [[nodiscard]] Failure set(const NamesOption& option, const std::vector<std::string>& given, FitSettings& settings);
 [[nodiscard]] Failure set(const WindowOption& option, const std::string& given, FitSettings& settings);

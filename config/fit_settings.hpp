@@ -21,11 +21,13 @@ namespace bladefit {
 /// option means, and its range, stand in the table of fit_option.cpp.
 struct FitSettings {
   std::optional<FitMode> mode;
-  std::optional<std::vector<ParameterBox>> leading_edge;  ///< at most ToleranceMap::kMaxBoxes
-  std::optional<double> tolerance;                        ///< |distance| allowed at the leading edge
-  std::optional<double> rest_tolerance;                   ///< |distance| allowed elsewhere
-  std::optional<double> ratio;                            ///< rest tolerance / leading-edge tolerance
-  std::optional<double> transition;                       ///< width of the zone between them [patch parameter]
+  std::optional<std::vector<EdgeZone>> leading_edge;  ///< at most ToleranceMap::kMaxBoxes
+  std::optional<Vec3> leading_edge_near;              ///< a place by that of the ridges which is the leading edge
+  std::optional<Rotation> rotation;                   ///< by which the leading edge is found
+  std::optional<double> tolerance;                    ///< |distance| allowed at the leading edge
+  std::optional<double> rest_tolerance;               ///< |distance| allowed elsewhere
+  std::optional<double> ratio;                        ///< rest tolerance / leading-edge tolerance
+  std::optional<double> transition;                   ///< width of the zone between them [patch parameter]
   std::optional<ParameterWindow> window;
   std::optional<OutwardChoice> outward;
   std::optional<std::vector<std::string>> face;  ///< faces of the design that are used; numbers, names, patterns

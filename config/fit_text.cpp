@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "drivers/text/text_number.hpp"
+#include "drivers/text/units.hpp"
 
 namespace bladefit {
 namespace {
@@ -54,7 +55,7 @@ Failure parse_lock(std::string_view text, std::uint8_t& locked) {
 Failure parse_leading_edge(std::string_view text, ParameterBox& box) {
   const Failure wrong = bad_input(
       fmt::format("'{}' is no leading-edge box; write [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6 with limits from 0 to 1, "
-                  "the lower first",
+                  "the lower first, or auto:5mm, auto:3%",
                   text));
   std::string_view rest = text;
   ParameterBox read;
@@ -69,6 +70,50 @@ Failure parse_leading_edge(std::string_view text, ParameterBox& box) {
   const bool along_u = part == "u";
   if (!parse_interval(rest, along_u ? read.u_min : read.v_min, along_u ? read.u_max : read.v_max)) return wrong;
   box = read;
+  return {};
+}
+
+Failure parse_edge_zone(std::string_view text, EdgeZone& zone) {
+  constexpr std::string_view kAuto = "auto:";
+  EdgeZone read;
+  if (!text.starts_with(kAuto)) {
+    if (const Failure error = parse_leading_edge(text, read.box)) return error;
+    zone = read;
+    return {};
+  }
+  const Failure wrong = bad_input(
+      fmt::format("'{}' is no zone; write auto: with a length above 0 and its unit, auto:5mm or auto:0.2in, or with a "
+                  "share of the chord below 50 %, auto:3%",
+                  text));
+  const std::string_view amount = text.substr(kAuto.size());
+  const std::size_t end = std::min(amount.find_first_not_of("0123456789.eE+-"), amount.size());
+  const std::optional<double> number = parse_finite(amount.substr(0, end));
+  const std::string_view unit = amount.substr(end);
+  if (!number || !(*number > 0) || *number > 1e9) return wrong;
+  read.reach = *number;
+  read.percent = unit == "%";
+  if (read.percent && *number >= 50) return wrong;
+  if (!read.percent) {
+    const auto* const known = std::ranges::find(kUnitWords, unit);
+    if (known == kUnitWords.end()) return wrong;
+    read.reach *= mm_per_unit(static_cast<Unit>(known - kUnitWords.begin()));
+  }
+  zone = read;
+  return {};
+}
+
+Failure parse_place(std::string_view text, Vec3& place) {
+  Vec3 read;
+  std::string_view rest = text;
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t comma = rest.find(',');
+    const std::optional<double> number = parse_finite(trimmed(rest.substr(0, comma)));
+    if (!number || (comma == std::string_view::npos) != (k == 2))
+      return bad_input(fmt::format("'{}' is no place; write x,y,z: three numbers with commas between them", text));
+    read[k] = *number;
+    rest.remove_prefix(k == 2 ? rest.size() : comma + 1);
+  }
+  place = read;
   return {};
 }
 

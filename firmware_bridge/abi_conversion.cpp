@@ -9,7 +9,7 @@
 namespace bladefit {
 namespace {
 
-static_assert(BLADEFIT_MAX_BOXES == ToleranceMap::kMaxBoxes && BLADEFIT_MAX_CAPACITY == kMostCapacity);
+static_assert(BLADEFIT_MAX_BOXES <= ToleranceMap::kMaxBoxes && BLADEFIT_MAX_CAPACITY == kMostCapacity);
 static_assert(BLADEFIT_NOT_FINITE == static_cast<int>(Status::not_finite) &&
               BLADEFIT_OUT_OF_RANGE == static_cast<int>(Status::out_of_range));
 

@@ -39,15 +39,22 @@ BladeVerdict judge_blade(const BladeEvidence& evidence) {
 void ZoneCount::count(const Verdict& verdict, std::uint32_t sign) {
   if (!is_judged(verdict.state)) return;
   const Foot& foot = verdict.foot;
+  std::uint32_t counted = 0;  // a zone: on the common limit of two of its boxes a point is one point
   for (std::uint32_t k = 0; k < map_.box_count; ++k) {
-    if (contains(map_.boxes[k], foot.patch, foot.u, foot.v)) points_[k] += sign;
+    const ParameterBox& box = map_.boxes[k];
+    const bool again = box.zone != 0 && box.zone == counted;
+    if (again || !contains(box, foot.patch, foot.u, foot.v)) continue;
+    points_[first_of_zone(map_, k)] += sign;
+    counted = box.zone;
   }
 }
 
 std::uint32_t ZoneCount::missed() const {
   if (!std::isfinite(map_.leading_edge_mm)) return 0;
   std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < map_.box_count; ++k) count += points_[k] < map_.least_points ? 1U : 0U;
+  for (std::uint32_t k = 0; k < map_.box_count; ++k) {
+    count += first_of_zone(map_, k) == k && points_[k] < map_.least_points ? 1U : 0U;
+  }
   return count;
 }
 

@@ -93,7 +93,8 @@ class ZoneCount {
   void count(const Verdict& verdict, std::uint32_t sign);
   /// Zones with fewer points than each needs; 0 where the leading edge is not judged. Cost: linear in the zones.
   [[nodiscard]] std::uint32_t missed() const;
-  [[nodiscard]] std::uint32_t points(std::uint32_t zone) const { return points_[zone]; }
+  /// Of the zone whose first box this is.
+  [[nodiscard]] std::uint32_t points(std::uint32_t box) const { return points_[box]; }
   void clear() { points_ = {}; }
 
  private:

@@ -17,6 +17,12 @@ bool contains(const ParameterBox& box, std::uint32_t patch, double u, double v) 
   return box.patch == patch && outside(box, u, v) == 0.0;
 }
 
+std::uint32_t first_of_zone(const ToleranceMap& map, std::uint32_t k) {
+  const std::uint32_t zone = map.boxes[k].zone;
+  while (zone != 0 && k > 0 && map.boxes[k - 1].zone == zone) --k;
+  return k;
+}
+
 bool sets_tolerance(const ToleranceMap& map) {
   return std::isfinite(map.rest_mm) || (std::isfinite(map.leading_edge_mm) && map.box_count > 0);
 }

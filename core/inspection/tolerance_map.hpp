@@ -11,21 +11,26 @@ enum class Region : std::uint8_t { rest = 0, leading_edge = 1 };
 struct ParameterBox {
   std::uint32_t patch = 0;
   double u_min = 0, u_max = 1, v_min = 0, v_max = 1;
+  std::uint32_t zone =
+      0;  ///< boxes of the same number, which stand together, are one zone; 0: the box is one by itself
 };
 
 /// Tolerance as a function over the patch parameters (thesis 4-6, 4-7, footnote 4).
 struct ToleranceMap {
-  static constexpr std::size_t kMaxBoxes = 32;
+  static constexpr std::size_t kMaxBoxes = 128;
   std::array<ParameterBox, kMaxBoxes> boxes{};  ///< the leading-edge region is their union
   std::uint32_t box_count = 0;
   double leading_edge_mm = std::numeric_limits<double>::infinity();  ///< |d| allowed inside; infinity = not judged
   double rest_mm = std::numeric_limits<double>::infinity();          ///< |d| allowed on the rest
   double transition = 0;           ///< width, in parameter units, over which the tolerance rises linearly outside a box
-  std::uint32_t least_points = 1;  ///< judged points that every box needs, or the blade is not decided
+  std::uint32_t least_points = 1;  ///< judged points that every zone needs, or the blade is not decided
 };
 
 /// Whether (u, v) of `patch` lies in the box.
 [[nodiscard]] bool contains(const ParameterBox& box, std::uint32_t patch, double u, double v);
+
+/// The first box of the zone that box `k` belongs to. Cost: linear in the boxes of the zone.
+[[nodiscard]] std::uint32_t first_of_zone(const ToleranceMap& map, std::uint32_t k);
 
 /// Whether any distance is judged.
 [[nodiscard]] bool sets_tolerance(const ToleranceMap& map);

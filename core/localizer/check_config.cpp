@@ -27,7 +27,8 @@ ConfigFault check_sizes(const LocalizerConfig& c) {
     return out_of_range("capacity", "must be from 6 to 16777216");
   if (c.refresh_per_push < kLeastRefresh || c.refresh_per_push > kMostRefresh)
     return out_of_range("refresh_per_push", "must be from 2 to 64");
-  if (c.tolerance.box_count > ToleranceMap::kMaxBoxes) return out_of_range("tolerance.box_count", "must be at most 32");
+  if (c.tolerance.box_count > ToleranceMap::kMaxBoxes)
+    return out_of_range("tolerance.box_count", "must be at most 128");
   if (c.locked >= kLockAll) return out_of_range("locked", "must leave a degree of freedom free");
   if (c.further_starts > kMostFurtherStarts) return out_of_range("further_starts", "must be at most 12");
   return kNone;

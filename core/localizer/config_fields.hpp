@@ -7,9 +7,9 @@
 namespace bladefit {
 
 /// Calls visit(name, field) for every number, choice and flag of a configuration; of the leading-edge boxes for those
-/// in use. The names are the members' paths, such as "tolerance.rest_mm". `Config` is LocalizerConfig, const or not: a
-/// visitor of one that is not const may change the fields. A member that is added to one of the structs and is missing
-/// here does not compile, since a structured binding names all members.
+/// in use, and of their zones those that have a number. The names are the members' paths, such as "tolerance.rest_mm".
+/// `Config` is LocalizerConfig, const or not: a visitor of one that is not const may change the fields. A member that
+/// is added to one of the structs and is missing here does not compile, since a structured binding names all members.
 template <class Config, class Visit>
 void for_each_field(Config& config, Visit&& visit) {
   auto& [capacity, refresh_per_push, probe_radius_mm, use_approach, edges, noise_floor_mm, determined_mm, start,
@@ -31,12 +31,13 @@ void for_each_field(Config& config, Visit&& visit) {
   visit("tolerance.box_count", box_count);
   const std::uint32_t boxes_in_use = std::min(box_count, std::uint32_t{ToleranceMap::kMaxBoxes});
   for (std::uint32_t k = 0; k < boxes_in_use; ++k) {
-    auto& [patch, u_min, u_max, v_min, v_max] = boxes[k];
+    auto& [patch, u_min, u_max, v_min, v_max, zone] = boxes[k];
     visit("tolerance.boxes.patch", patch);
     visit("tolerance.boxes.u_min", u_min);
     visit("tolerance.boxes.u_max", u_max);
     visit("tolerance.boxes.v_min", v_min);
     visit("tolerance.boxes.v_max", v_max);
+    if (zone != 0) visit("tolerance.boxes.zone", zone);
   }
   visit("tolerance.leading_edge_mm", leading_edge_mm);
   visit("tolerance.rest_mm", rest_mm);

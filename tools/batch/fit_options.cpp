@@ -9,6 +9,7 @@
 
 #include "core/localizer/check_config.hpp"
 #include "drivers/text/units.hpp"
+#include "tools/batch/auto_zone.hpp"
 #include "tools/batch/edge_zone.hpp"
 #include "tools/batch/side_check.hpp"
 #include "tools/batch/start_pairs.hpp"
@@ -45,7 +46,7 @@ void check_tolerances(const FitSettings& settings, const LocalizerConfig& fit) {
                                 *settings.ratio, *settings.rest_tolerance));
   }
   for (std::uint32_t k = 0; k < map.box_count; ++k) {
-    if (!beyond_window(map.boxes[k], fit)) continue;
+    if (map.boxes[k].zone != 0 || !beyond_window(map.boxes[k], fit)) continue;
     throw ToolError(
         fmt::format("--leading-edge: zone {} lies outside of --window {:g}:{:g}, so that no point can fall in "
                     "it; widen the window or correct the zone",
@@ -163,6 +164,8 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   FitPlan plan;
   plan_units(settings, design, plan);
   apply_fit_options(settings, plan.mm_per_unit, plan.localizer);
+  plan_radii(settings, plan);
+  plan_auto_zones(settings, Surface(design), plan);
   check_choices(settings, plan.localizer);
   const ToleranceMap& map = plan.localizer.tolerance;
   if (settings.tolerance && map.box_count == 0) {
@@ -173,12 +176,13 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   const std::size_t patches = design.patches().size();
   if (const ConfigFault fault = check_config(plan.localizer, patches))
     throw ToolError(explained(fault, plan.localizer, patches));
-  plan_radii(settings, plan);
   const Vec3 box = Vec3(design.header().box_max) - Vec3(design.header().box_min);
   check_probe(plan, box.maxCoeff());
   check_sizes(settings, plan, box.maxCoeff());
   check_outward(design, settings.outward.value_or(OutwardOption::automatic));
-  for (std::uint32_t k = 0; k < map.box_count; ++k) plan.note += zone_warning(Surface(design), map.boxes.at(k));
+  for (std::uint32_t k = 0; k < map.box_count; ++k) {
+    if (map.boxes.at(k).zone == 0) plan.note += zone_warning(Surface(design), map.boxes.at(k));
+  }
   return plan;
 }
 

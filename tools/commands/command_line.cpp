@@ -17,6 +17,7 @@
 #include "tools/commands/reproduce_command.hpp"
 #include "tools/commands/run_command.hpp"
 #include "tools/commands/sample_command.hpp"
+#include "tools/commands/show_command.hpp"
 #include "tools/commands/simulate_command.hpp"
 #include "tools/commands/split_command.hpp"
 #include "tools/commands/suggestion.hpp"
@@ -94,6 +95,7 @@ int run_command_line(int argc, char** argv) {
   add_split_command(app, exit_code);
   add_sample_command(app, exit_code);
   add_compile_command(app, exit_code);
+  add_show_command(app, exit_code);
   add_localize_command(app, exit_code);
   add_simulate_command(app, exit_code);
   add_run_command(app, exit_code);

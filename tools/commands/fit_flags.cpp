@@ -1,5 +1,6 @@
 #include "tools/commands/fit_flags.hpp"
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -30,6 +31,13 @@ CLI::Option* add_flag(CLI::App& command, const FitOption& option, const Kind& ki
 void add_fit_options(CLI::App& command, FitSettings& flags) {
   for (const FitOption& option : fit_options()) {
     std::visit([&](const auto& kind) { add_flag(command, option, kind, flags)->group("Fit"); }, option.kind);
+  }
+}
+
+void add_fit_options(CLI::App& command, FitSettings& flags, std::span<const std::string_view> keys) {
+  for (const FitOption& option : fit_options()) {
+    if (std::ranges::find(keys, option.key) == keys.end()) continue;
+    std::visit([&](const auto& kind) { add_flag(command, option, kind, flags)->group("Design"); }, option.kind);
   }
 }
 

@@ -7,12 +7,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "config/fit_text.hpp"
+#include "tools/design/loft/blade_table.hpp"
 #include "tools/design/loft/leading_edge.hpp"
 #include "tools/design/loft/loft.hpp"
 #include "tools/design/nurbs/iges_writer.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/files/output_file.hpp"
+#include "tools/files/read_text.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -25,13 +29,14 @@ constexpr double kShareOfTolerance = 0.1, kLargestOff_mm = 0.1;
 constexpr double kZone = 0.05;
 
 struct LoftFlags {
-  std::string sections, output, units;
+  std::string sections, table, output, units, foil = std::string(kFoilWords[0]), hand = std::string(kRotationWords[0]);
+  double diameter = 0;
   std::optional<double> tolerance;
   LoftSettings settings;
 };
 
 constexpr const char* kLoftDescription =
-    "Loft a design surface from the measured or tabulated points of blade sections";
+    "Loft a design surface from the points of blade sections or from a propeller's table";
 
 constexpr const char* kLoftHelp = R"(
 SECTIONS.csv names its columns in the first line: section,x,y,z and, if there, index and r_over_R. The rows of a section
@@ -48,7 +53,16 @@ in v. A surface that is farther from its points than a tenth of --tolerance (0.1
 a warning: distances from it are wrong by as much. --follow-points makes the knots dense where the points are, which on
 sections with dense points at the leading edge keeps the surface near them there.
 
+With --table there are no points: BLADE.csv is a propeller's table with the columns r_over_R, c_over_D, P_over_D, f_over_c,
+t_over_c (or t_over_D) and, if there, skew [degrees] and rake_over_D, a row a radius from root to tip. --diameter is D.
+  --section naca66  NACA 66 with the modified nose and tail of DTMB, mean line a = 0.8 (default)
+  --section naca16  NACA 16, mean line a = 1
+Thickness is laid off at right angles to the nose-tail line. Skew is that of the middle of the chord along the helix, positive
+towards the trailing edge; rake is that of the generator line, positive aft, without what skew adds to it. x is the axis
+of the shaft, forward; z the generator line. Only radii from the first to the last row are made.
+
 Examples:
+  bladefit loft --table blade.csv --diameter 304.8 -o blade.igs --units mm
   bladefit loft sections.csv -o blade.igs --units in
   bladefit loft sections.csv -o blade.igs --units mm --control-points 80
   bladefit loft sections.csv -o blade.igs --units mm --follow-points --tolerance 0.1
@@ -59,9 +73,11 @@ Exit codes: 0 done, 2 wrong use or bad sections, 3 a file cannot be read or writ
 void print_deviation(const BladeSections& sections, const LoftDeviation& deviation, DesignUnit unit) {
   const double mm = mm_per_unit(unit);
   const BladeSection& worst = sections.sections[deviation.section];
-  fmt::print("  points off the surface: RMS {:.3g} {}, at most {:.3g} {} in section {}{} at line {}\n",
-             deviation.rms_mm / mm, unit_name(unit), deviation.largest_mm / mm, unit_name(unit), worst.name,
-             worst.radius ? fmt::format(" (r/R {})", *worst.radius) : "", worst.lines[deviation.point]);
+  const bool named = !worst.lines.empty() && worst.radius;
+  fmt::print("  points off the surface: RMS {:.3g} {}, at most {:.3g} {} in section {}{}{}\n", deviation.rms_mm / mm,
+             unit_name(unit), deviation.largest_mm / mm, unit_name(unit), worst.name,
+             named ? fmt::format(" (r/R {})", *worst.radius) : "",
+             worst.lines.empty() ? "" : fmt::format(" at line {}", worst.lines[deviation.point]));
 }
 
 /// The zone to judge it by, for --leading-edge.
@@ -82,26 +98,51 @@ void warn_of_deviation(const LoftFlags& flags, const BladeSections& sections, co
   const double most = flags.tolerance ? kShareOfTolerance * *flags.tolerance * mm : kLargestOff_mm;
   if (deviation.largest_mm <= most) return;
   const BladeSection& worst = sections.sections[deviation.section];
+  const std::string place = worst.lines.empty() ? "" : fmt::format(":{}", worst.lines[deviation.point]);
   fmt::print(
       stderr,
-      "bladefit: warning: {}:{}: the surface is {:.3g} {} off this point of section {}, more than {:.3g} {}; give "
+      "bladefit: warning: {}{}: the surface is {:.3g} {} off a point of section {} there, more than {:.3g} {}; give "
       "--follow-points, more --control-points, or --knots that are dense there\n",
-      flags.sections, worst.lines[deviation.point], deviation.largest_mm / mm, flags.units, worst.name, most / mm,
-      flags.units);
+      sections.file, place, deviation.largest_mm / mm, flags.units, worst.name, most / mm, flags.units);
+}
+
+/// The sections of a propeller's table.
+BladeSections tabulated(const LoftFlags& flags) {
+  if (!(flags.diameter > 0)) throw ToolError("--table: the diameter is not given; add --diameter, in --units");
+  const BladeTable table = parse_blade_table(read_text(flags.table), flags.table);
+  BladeShape shape{.diameter = flags.diameter};
+  shape.foil = flags.foil == kFoilWords[0] ? Foil::naca66 : Foil::naca16;
+  shape.left_handed = flags.hand == kRotationWords[static_cast<std::size_t>(Rotation::left)];
+  return sections_of(table, shape);
+}
+
+BladeSections read_sections(const LoftFlags& flags) {
+  if (flags.sections.empty() == flags.table.empty()) {
+    throw ToolError(flags.table.empty() ? "loft: neither SECTIONS.csv nor --table is given; name one"
+                                        : "loft: SECTIONS.csv and --table are both given; leave one out");
+  }
+  if (!flags.table.empty()) return tabulated(flags);
+  if (flags.diameter != 0) throw ToolError("--diameter: is for --table alone; leave it out");
+  return read_sections_csv(flags.sections);
 }
 
 void run_loft(const LoftFlags& flags) {
-  refuse_overwriting(flags.output, "sections", flags.sections);
+  const std::string& input = flags.table.empty() ? flags.sections : flags.table;
+  refuse_overwriting(flags.output, flags.table.empty() ? "sections" : "table", input);
   const DesignUnit unit = flags.units == "in" ? DesignUnit::inch : DesignUnit::mm;
-  const BladeSections sections = read_sections_csv(flags.sections);
+  const BladeSections sections = read_sections(flags);
   if (sections.unit && mm_per_unit(*sections.unit) != mm_per_unit(unit)) {
     throw ToolError(fmt::format("{}: the file gives its lengths in {}, but --units says {}; correct one of the two",
                                 flags.sections, word_of(*sections.unit), flags.units));
   }
-  const NurbsSurface surface = loft(sections, flags.settings, mm_per_unit(unit));
+  LoftSettings settings = flags.settings;
+  // The points of a table's sections are dense where they bend, and have no noise.
+  settings.follow_points = settings.follow_points || (!flags.table.empty() && settings.knots.empty());
+  settings.knots_at_sections = !flags.table.empty();
+  const NurbsSurface surface = loft(sections, settings, mm_per_unit(unit));
   const LoftDeviation deviation = loft_deviation(surface, sections, mm_per_unit(unit));
   write_iges_design(flags.output, {surface}, unit);
-  fmt::print("{} -> {}\n", flags.sections, flags.output);
+  fmt::print("{} -> {}\n", input, flags.output);
   if (!sections.note.empty()) fmt::print("  {}\n", sections.note);
   fmt::print("  {} sections, {} points\n", sections.sections.size(), deviation.points);
   fmt::print("  u over the sections: degree {}, {} control points\n", surface.u.degree, surface.u.control_points);
@@ -118,9 +159,17 @@ void add_loft_command(CLI::App& app, int& exit_code) {
   LoftSettings& settings = flags->settings;
   CLI::App* command = app.add_subcommand("loft", kLoftDescription);
   command->footer(kLoftHelp);
-  command->add_option("sections", flags->sections, "CSV with the points of the sections")
-      ->required()
-      ->type_name("SECTIONS.csv");
+  command->add_option("sections", flags->sections, "CSV with the points of the sections")->type_name("SECTIONS.csv");
+  command->add_option("--table", flags->table, "CSV with a propeller's table, in place of sections")
+      ->type_name("BLADE.csv");
+  command->add_option("--diameter", flags->diameter, "Diameter of the propeller of --table, in --units")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--section", flags->foil, "Sections of --table: naca66 (modified, a = 0.8) or naca16 (a = 1)")
+      ->check(CLI::IsMember(std::vector<std::string>(kFoilWords.begin(), kFoilWords.end())))
+      ->capture_default_str();
+  command->add_option("--hand", flags->hand, "Which way the propeller of --table turns, seen from aft: right or left")
+      ->check(CLI::IsMember(std::vector<std::string>(kRotationWords.begin(), kRotationWords.end())))
+      ->capture_default_str();
   command->add_option("-o,--output", flags->output, "IGES file to write")->required()->type_name("OUT.igs");
   command->add_option("--units", flags->units, "Unit of the sections and of the IGES file: mm or in")
       ->required()

@@ -96,8 +96,9 @@ LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const 
   if (choice.faces.empty()) leave_trimmed_caps(design);
   if (design.surfaces.empty()) throw ToolError(fmt::format("{}: no face that can be read is left", file));
   const OutwardSide side = choose_sides(design, choice.outward, file);
-  LoadedDesign loaded{write_image(design.surfaces, design.unit, side.sign), design.warnings,
-                      trim_warning(design, file)};
+  LoadedDesign loaded{
+      write_image(design.surfaces, design.unit, side.sign), design.warnings, trim_warning(design, file), {}};
+  for (const DesignFace& face : design.faces) loaded.names.push_back(face.name);
   const std::vector<std::string> doubts = design_doubts(design);
   loaded.notes.insert(loaded.notes.end(), doubts.begin(), doubts.end());
   loaded.notes.push_back(side_note(side.sign, side.reason));

@@ -15,6 +15,7 @@ struct LoadedDesign {
   std::vector<std::byte> image;    ///< valid for DesignImage::open
   std::vector<std::string> notes;  ///< warnings, and the outward side taken and why; one line each
   std::string warning;             ///< what may make verdicts wrong; one line, empty = nothing
+  std::vector<std::string> names;  ///< of the faces, one a patch, as the file has them; none of an image
 };
 
 /// What of a file is used, and how.

@@ -64,11 +64,27 @@ std::string lost_text(const StreamEvidence& stream) {
   return text + "; probe them again";
 }
 
+/// The box about those boxes of a zone that are on the patch of the first one, `k`.
+ParameterBox around_zone(const ToleranceMap& map, std::uint32_t k) {
+  ParameterBox around = map.boxes[k];
+  for (std::uint32_t i = k; around.zone != 0 && i < map.box_count && map.boxes[i].zone == around.zone; ++i) {
+    const ParameterBox& box = map.boxes[i];
+    if (box.patch != around.patch) continue;
+    around = {around.patch,
+              std::min(around.u_min, box.u_min),
+              std::max(around.u_max, box.u_max),
+              std::min(around.v_min, box.v_min),
+              std::max(around.v_max, box.v_max),
+              around.zone};
+  }
+  return around;
+}
+
 std::string zone_text(const ZoneCount& zones, const ToleranceMap& map) {
   std::string text;
   for (std::uint32_t k = 0; k < map.box_count; ++k) {
-    if (zones.points(k) >= map.least_points) continue;
-    const ParameterBox& box = map.boxes[k];
+    if (first_of_zone(map, k) != k || zones.points(k) >= map.least_points) continue;
+    const ParameterBox box = around_zone(map, k);
     text += fmt::format("{}patch {} u {:g} to {:g} v {:g} to {:g} ({})", text.empty() ? "" : "; ", box.patch, box.u_min,
                         box.u_max, box.v_min, box.v_max, zones.points(k));
   }

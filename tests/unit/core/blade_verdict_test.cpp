@@ -133,6 +133,24 @@ Verdict verdict_at(PointState state, std::uint32_t patch, double u, double v) {
   return verdict;
 }
 
+TEST(ZoneCount, BoxesOfOneNumberAreOneZone) {
+  ToleranceMap map = two_zones();
+  map.boxes[0].zone = map.boxes[1].zone = 3;
+  map.boxes[2] = {0, 0.4, 0.6, 0.0, 1.0, 0};  // the first one again, by itself
+  map.boxes[3] = {0, 0.6, 0.8, 0.0, 1.0, 4};  // they share the limit u = 0.6
+  map.boxes[4] = {0, 0.5, 0.6, 0.0, 1.0, 4};
+  map.box_count = 5;
+  ZoneCount zones(map);
+  EXPECT_EQ(zones.missed(), 3U);
+  zones.count(verdict_at(PointState::in, 1, 0.5, 0.95), 1);
+  EXPECT_EQ(zones.missed(), 2U);
+  zones.count(verdict_at(PointState::in, 0, 0.6, 0.2), 1);
+  EXPECT_EQ(zones.missed(), 0U);
+  EXPECT_EQ(zones.points(0), 2U);
+  EXPECT_EQ(zones.points(2), 1U);
+  EXPECT_EQ(zones.points(3), 1U) << "on the common limit a point is one point";
+}
+
 TEST(ZoneCount, EachZoneNeedsItsOwnJudgedPoints) {
   ToleranceMap map = two_zones();
   ZoneCount zones(map);

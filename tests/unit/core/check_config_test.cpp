@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, CheckConfig,
                                            Refused{"refresh_per_push", kRange, [](C& c) { c.refresh_per_push = 1; }},
                                            Refused{"refresh_per_push", kRange, [](C& c) { c.refresh_per_push = 65; }},
                                            Refused{"tolerance.box_count", kRange,
-                                                   [](C& c) { c.tolerance.box_count = 33; }},
+                                                   [](C& c) { c.tolerance.box_count = 129; }},
                                            Refused{"locked", kRange, [](C& c) { c.locked = 63; }},
                                            Refused{"further_starts", kRange, [](C& c) { c.further_starts = 13; }}));
 

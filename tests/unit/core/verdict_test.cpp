@@ -279,7 +279,7 @@ TEST(Configuration, OutOfRangeIsRefused) {
   EXPECT_EQ(status([](C& c) { c.determined_mm = kNan; }), Status::out_of_range);
   EXPECT_EQ(status([](C& c) { c.tolerance.rest_mm = 0; }), Status::out_of_range);
   EXPECT_EQ(status([](C& c) { c.tolerance.leading_edge_mm = kNan; }), Status::out_of_range);
-  EXPECT_EQ(status([](C& c) { c.tolerance.box_count = 33; }), Status::out_of_range);
+  EXPECT_EQ(status([](C& c) { c.tolerance.box_count = 129; }), Status::out_of_range);
   EXPECT_EQ(status([](C& c) { c.tolerance.boxes[0].patch = 1; }), Status::out_of_range);
   EXPECT_EQ(status([](C& c) { c.tolerance.boxes[0].u_min = 0.7; }), Status::out_of_range);
   EXPECT_EQ(status([](C& c) { c.start.rotation *= 1.1; }), Status::out_of_range);

@@ -47,7 +47,7 @@ TEST(FitFlags, ValuesArriveParsed) {
       "--window 0.1:0.9 --start pairs.csv --ignore-approach");
   EXPECT_EQ(flags.mode, FitMode::minimax);
   ASSERT_EQ(flags.leading_edge->size(), 2U);
-  EXPECT_EQ(flags.leading_edge->at(1).patch, 1U);
+  EXPECT_EQ(flags.leading_edge->at(1).box.patch, 1U);
   EXPECT_EQ(flags.tolerance, 2);
   EXPECT_EQ(flags.units, Unit::inch);
   EXPECT_EQ(design_choice_of(flags).outward, OutwardChoice(OutwardOption::minus));

@@ -49,6 +49,12 @@ int control_point_count(const BladeSections& sections, const LoftSettings& setti
                               settings.degree + 1));
 }
 
+/// Where a section begins, or ends, in its file; the file alone where it is made from a table.
+std::string place_of(const BladeSections& sections, const BladeSection& section, bool end = false) {
+  if (section.lines.empty()) return sections.file;
+  return fmt::format("{}:{}", sections.file, end ? section.lines.back() : section.lines.front());
+}
+
 void check_counts(const BladeSections& sections, const LoftSettings& settings, int control_points) {
   const std::size_t count = sections.sections.size();
   if (count <= static_cast<std::size_t>(settings.span_degree)) {
@@ -60,9 +66,9 @@ void check_counts(const BladeSections& sections, const LoftSettings& settings, i
   for (const BladeSection& section : sections.sections) {
     if (section.points.size() >= static_cast<std::size_t>(control_points)) continue;
     throw ToolError(
-        fmt::format("{}:{}: section {} has {} points, too few for {} control points; add points or take "
+        fmt::format("{}: section {} has {} points, too few for {} control points; add points or take "
                     "fewer control points",
-                    sections.file, section.lines.back(), section.name, section.points.size(), control_points));
+                    place_of(sections, section, true), section.name, section.points.size(), control_points));
   }
 }
 
@@ -70,8 +76,8 @@ std::vector<long double> parameters_of(const BladeSections& sections, const Blad
                                        const std::vector<ExtendedPoint>& points) {
   auto parameters = chord_parameters(points);
   if (parameters) return *std::move(parameters);
-  throw ToolError(fmt::format("{}:{}: all points of section {} are the same; give points along the section",
-                              sections.file, section.lines.front(), section.name));
+  throw ToolError(fmt::format("{}: all points of section {} are the same; give points along the section",
+                              place_of(sections, section), section.name));
 }
 
 std::vector<ExtendedPoint> points_of(const BladeSection& section) {
@@ -93,15 +99,24 @@ std::vector<double> section_knots(const BladeSections& sections, const LoftSetti
   return mean;
 }
 
+/// The internal knots over `count` sections.
+std::vector<double> span_knots(const LoftSettings& settings, std::size_t count) {
+  const int degree = settings.span_degree, knots = static_cast<int>(count) - degree - 1;
+  if (!settings.knots_at_sections) return uniform_knots(knots);
+  std::vector<double> means;  // of the parameters of sections j to j + degree - 1
+  for (int j = 1; j <= knots; ++j) means.push_back((j + 0.5 * (degree - 1)) / static_cast<double>(count - 1));
+  return means;
+}
+
 std::vector<ExtendedPoint> fit_section(const BladeSections& sections, const BladeSection& section,
                                        const SurfaceDirection& direction) {
   const std::vector<ExtendedPoint> points = points_of(section);
   auto controls = fit_spline(direction, parameters_of(sections, section, points), points);
   if (controls) return *std::move(controls);
   throw ToolError(
-      fmt::format("{}:{}: section {} has no points between some knots, so that the curve is not "
+      fmt::format("{}: section {} has no points between some knots, so that the curve is not "
                   "determined; lower --control-points or place --knots where points are",
-                  sections.file, section.lines.front(), section.name));
+                  place_of(sections, section), section.name));
 }
 
 /// The splines over the sections through their control points: column j holds control points (0, j), (1, j), ...
@@ -135,8 +150,7 @@ NurbsSurface loft(const BladeSections& sections, const LoftSettings& settings, d
   const int count = control_point_count(sections, settings);
   check_counts(sections, settings, count);
   surface.v = clamped_direction(settings.degree, section_knots(sections, settings, count));
-  const int span_knots = static_cast<int>(sections.sections.size()) - settings.span_degree - 1;
-  surface.u = clamped_direction(settings.span_degree, uniform_knots(span_knots));
+  surface.u = clamped_direction(settings.span_degree, span_knots(settings, sections.sections.size()));
   std::vector<std::vector<ExtendedPoint>> curves;
   for (const BladeSection& section : sections.sections) curves.push_back(fit_section(sections, section, surface.v));
   const auto count_v = static_cast<std::size_t>(surface.v.control_points);

@@ -14,6 +14,7 @@ struct LoftSettings {
   std::optional<int> control_points = {};  ///< along a section
   std::vector<double> knots = {};          ///< internal ones along a section, in place of uniform ones where not empty
   bool follow_points = false;              ///< knots are dense where the points of the sections are
+  bool knots_at_sections = false;          ///< over the sections: knots are means of their u, in place of uniform ones
 };
 
 /// The control points along a section that are taken unless others are asked for: a third of the points of the shortest
@@ -22,10 +23,11 @@ int default_control_points(const BladeSections& sections, int degree);
 
 /// The surface through the sections (thesis, section 5.4; The NURBS Book, sections 9.4 and 10.3): to each section a
 /// spline by least squares over its chord length, first and last point interpolated, the same knots for all; then
-/// through their control points splines from section to section, section k of n at u = k / (n - 1), uniform internal
-/// knots. u runs over the sections in the order of the file, v along them, both 0..1. Lengths are turned to mm.
-/// Throws ToolError for settings that cannot be, and for sections that are too few, have too few points or do not
-/// determine the curve. Cost: points x degree^2.
+/// through their control points splines from section to section, section k of n at u = k / (n - 1), internal
+/// knots uniform or, where wanted, by eq. 9.8: with many sections uniform ones do not determine the surface. u runs
+/// over the sections in the order of the file, v along them, both 0..1. Lengths are turned to mm. Throws ToolError for
+/// settings that cannot be, and for sections that are too few, have too few points or do not determine the curve. Cost:
+/// points x degree^2.
 NurbsSurface loft(const BladeSections& sections, const LoftSettings& settings, double mm_per_unit);
 
 /// How far the points of the sections are from their nearest points on a surface.

@@ -15,7 +15,7 @@ struct BladeSection {
   std::string name;              ///< as in the column `section`
   std::optional<double> radius;  ///< r/R, where the file gives it
   std::vector<Eigen::Vector3d> points;
-  std::vector<std::size_t> lines;  ///< of the file, counted from 1; one a point
+  std::vector<std::size_t> lines;  ///< of the file, counted from 1; one a point, none of a table's
 };
 
 /// The sections of a blade in the order of the file, from root to tip or back.
