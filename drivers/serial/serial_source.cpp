@@ -14,7 +14,7 @@ namespace bladefit {
 namespace {
 
 constexpr std::size_t kMostUnsent = 1024;  ///< bytes the port does not take
-constexpr std::chrono::milliseconds kCloseTime{700};
+constexpr std::chrono::milliseconds kPortCloseTime{700};
 constexpr const char* kHangUp = "the port has hung up; check the cable";
 
 }  // namespace
@@ -123,7 +123,7 @@ void SerialSource::close() {
   send();
   // A device in another run is left to it.
   if (!session_.stopped()) unsent_ += encode_line(serial_protocol_v1::kStopTag);
-  const Clock::time_point until = Clock::now() + kCloseTime;
+  const Clock::time_point until = Clock::now() + kPortCloseTime;
   while (port_->is_open() && !unsent_.empty() && Clock::now() < until) {
     send();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -13,7 +13,7 @@
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kLongestLine = 65536;
+constexpr std::size_t kLongestRow = 65536;
 
 /// What a comment calls the unit of the lengths.
 constexpr std::array<std::string_view, 5> kUnitKeys = {"unit", "units", "length unit", "length units",
@@ -75,9 +75,9 @@ class TableReading {
  private:
   /// Errors are phrases, except for those of `take`, which name the place.
   Failure read_line(std::string_view line, bool ended, const std::function<Failure(const CsvRow&)>& take) {
-    if (line.size() > kLongestLine) {
+    if (line.size() > kLongestRow) {
       return bad_input(
-          fmt::format("the line is longer than {} characters: this is no table; {}", kLongestLine, format_.fix));
+          fmt::format("the line is longer than {} characters: this is no table; {}", kLongestRow, format_.fix));
     }
     if (is_binary(line))
       return bad_input(fmt::format("a control character: this is no CSV text file; {}", format_.fix));

@@ -25,8 +25,8 @@ constexpr double kNear = 0.05, kSamePose = 0.01;
 constexpr double kSameFound = 0.02;
 /// How far off the further starts of few points lie, at least and at most [half diagonals].
 constexpr double kLeastOff = 0.01, kMostOff = 0.1;
-/// 95 % of the ratios of two root mean squares with n degrees of freedom are below exp(kByChance / sqrt(n)).
-constexpr double kByChance = 1.645;
+/// 95 % of the ratios of two root mean squares with n degrees of freedom are below exp(kRmsQuantile / sqrt(n)).
+constexpr double kRmsQuantile = 1.645;
 
 ProjectionQuery query_of(const RivalQuestion& question, const Pose& pose, const ProbePoint& point) {
   ProjectionQuery query;
@@ -116,7 +116,7 @@ std::vector<Vec6> start_directions() {
 bool fits_as_well(double rms_mm, double own_rms_mm, std::uint32_t count) {
   const double free = std::max(1.0, static_cast<double>(count) - 6.0);
   // Form errors of a blade are no independent errors: however many points there are, half as much again is as good.
-  return rms_mm <= std::max(1.5, std::exp(kByChance / std::sqrt(free))) * own_rms_mm + 1e-9;
+  return rms_mm <= std::max(1.5, std::exp(kRmsQuantile / std::sqrt(free))) * own_rms_mm + 1e-9;
 }
 
 bool start_prefers(const RivalQuestion& question, const Rival& rival) {

@@ -14,7 +14,7 @@ namespace bladefit {
 namespace {
 
 /// Points that are looked at, and how many of them must have a direction that tells.
-constexpr std::size_t kLooks = 60, kLeastLooks = 6;
+constexpr std::size_t kSideLooks = 60, kLeastLooks = 6;
 /// A direction along the surface tells nothing: its cosine with the normal must be this large.
 constexpr double kTells = 0.3;
 /// Share of the directions that run out of the material where the side is the wrong one.
@@ -41,7 +41,7 @@ std::optional<double> share_outwards(const Surface& surface, const std::vector<P
 std::string wrong_directions(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
                              const Pose& pose) {
   if (!plan.localizer.use_approach) return "";
-  const std::optional<double> share = share_outwards(Surface(design), some_of(points, kLooks), pose);
+  const std::optional<double> share = share_outwards(Surface(design), some_of(points, kSideLooks), pose);
   if (!share || *share < kNearlyAll) return "";
   return fmt::format(
       "at {:.0f} % of the points the probing direction runs out of the material: the outward side is the wrong one "

@@ -21,7 +21,7 @@ constexpr std::uint32_t kLeastWeighed = 8, kFew = 20;
 /// A start that was farther off than this is told [half diagonals].
 constexpr double kFarStart = 0.2;
 /// A pose is far better where its typical distance is this share of the other's.
-constexpr double kFarBetter = 0.5, kMirroredFarBetter = 0.4;
+constexpr double kFarNearer = 0.5, kMirroredFarBetter = 0.4;
 
 bool are_too_few(const PoseFit& fitted) { return fitted.counted < kLeastWeighed && fitted.points < kFew; }
 
@@ -145,7 +145,7 @@ std::optional<StartChoice> WorldChecks::better_start(const PoseFit& finished) {
   const std::vector<PoseFit>& poses = found_poses();
   if (poses.empty() || !is_credible(poses.front(), scale_mm_)) return std::nullopt;
   const bool better =
-      fitted.counted < poses.front().counted / 2 || poses.front().typical_mm < kFarBetter * fitted.typical_mm;
+      fitted.counted < poses.front().counted / 2 || poses.front().typical_mm < kFarNearer * fitted.typical_mm;
   if (!better) return std::nullopt;
   return searched_start();
 }

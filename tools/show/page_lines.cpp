@@ -9,7 +9,7 @@ namespace bladefit {
 namespace {
 
 /// Pieces of a line that is drawn on a patch.
-constexpr std::size_t kSteps = 96;
+constexpr std::size_t kLineSteps = 96;
 /// Where along a line of constant u its label stands, and the two places along one of constant v, one for each side.
 constexpr double kLabelAcross = 0.55;
 constexpr double kLabelAlong[2] = {0.27, 0.73};

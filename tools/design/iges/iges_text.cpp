@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t kColumns = 80;
 constexpr std::size_t kSectionColumn = 72;
 constexpr std::string_view kSections = "SGDPT";
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -158,7 +157,6 @@ int iges_integer(std::string_view field, const std::string& file, std::size_t li
 
 IgesText split_iges_text(std::string_view text, const std::string& file) {
   if (trimmed(text).empty()) throw ToolError(fmt::format("{}: the file is empty; export the design again", file));
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   const std::vector<std::string_view> lines = split_lines(text);
   const Sections sections = split_sections(lines, file);
   check_terminate(sections, lines.size());

@@ -10,8 +10,8 @@
 namespace bladefit {
 namespace {
 
-constexpr double kNose66 = 0.448;  ///< Brockett, page 3
-/// Thickness of NACA 66 (mod) at shares of the chord (Brockett, table 1).
+constexpr double kNose66 = 0.448;  ///< Brockett
+/// Thickness of NACA 66 (mod) at shares of the chord (Brockett).
 constexpr std::array<double, 18> kPlaces66 = {0,   0.0125, 0.025, 0.05, 0.075, 0.1, 0.15, 0.2,  0.3,
                                               0.4, 0.45,   0.5,   0.6,  0.7,   0.8, 0.9,  0.95, 1};
 constexpr std::array<double, 18> kThickness66 = {0,      0.2088, 0.2932, 0.4132, 0.5050, 0.5814,

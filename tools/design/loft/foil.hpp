@@ -16,7 +16,7 @@ inline constexpr std::array<std::string_view, 2> kFoilWords = {"naca66", "naca16
 /// NACA 66 (mod): ordinates and radius of T. Brockett, Minimum Pressure Envelopes for Modified NACA-66 Sections with
 /// NACA a = 0.8 Camber and Buships Type I and Type II Sections, DTMB Report 1780, 1966; between them a spline of
 /// y / sqrt(x) over sqrt(x). NACA 16: W. F. Lindsey, D. B. Stevenson, B. N. Daley, Aerodynamic Characteristics of 24
-/// NACA 16-Series Airfoils, NACA TN 1546, 1948, page 5.
+/// NACA 16-Series Airfoils, NACA TN 1546, 1948.
 [[nodiscard]] double half_thickness(Foil foil, double x);
 
 /// Radius of the leading edge: that much times (thickness / chord)^2 of the chord.

@@ -10,7 +10,7 @@ using Extended = long double;
 using ExtendedPoint = Eigen::Matrix<Extended, 4, 1>;
 
 /// Parameters nearer to a knot than this part of the range mean the knot.
-constexpr Extended kSameKnot = 1e-12L;
+constexpr Extended kSameSplitKnot = 1e-12L;
 
 /// A spline curve in homogeneous coordinates.
 struct Curve {
@@ -64,7 +64,7 @@ Extended parameter_at(const SurfaceDirection& direction, double normalised) {
   const Extended length = static_cast<Extended>(direction.end) - direction.start;
   const Extended parameter = direction.start + normalised * length;
   for (const double knot : direction.knots) {
-    if (std::abs(parameter - knot) <= kSameKnot * length) return knot;
+    if (std::abs(parameter - knot) <= kSameSplitKnot * length) return knot;
   }
   return parameter;
 }

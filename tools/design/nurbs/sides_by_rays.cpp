@@ -10,7 +10,7 @@ namespace bladefit {
 namespace {
 
 /// Places of a surface that are asked, and lines from each to each side: one along the normal, the others about it.
-constexpr std::size_t kPlaces = 24;
+constexpr std::size_t kRayPlaces = 24;
 constexpr int kLines = 7;
 /// Lines lean by this from the normal (tangent of the angle).
 constexpr double kLean = 0.6;
@@ -71,7 +71,7 @@ class Rays {
     const Group& group = groups_[k];
     const auto count = static_cast<std::size_t>(group.end - group.begin);
     double asked = 0, plus = 0, minus = 0;
-    for (std::size_t place = 1; place <= kPlaces; ++place) {
+    for (std::size_t place = 1; place <= kRayPlaces; ++place) {
       const double share = std::fmod(static_cast<double>(place) / std::numbers::phi, 1.0);
       const Facet& facet = group.begin[static_cast<std::size_t>(share * static_cast<double>(count))];
       const double area = facet.area();

@@ -13,7 +13,6 @@
 namespace bladefit {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kFirst = "ISO-10303-21;";
 constexpr std::string_view kLast = "END-ISO-10303-21;";
 /// White space, and the end-of-file characters that some systems append.
@@ -21,7 +20,7 @@ constexpr std::string_view kBlank{" \t\r\n\f\v\x1a\0", 8};
 /// Parentheses inside each other: real files have less than ten, and the library's parser needs memory for each.
 constexpr int kMaxDepth = 100;
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
@@ -137,8 +136,7 @@ class TokenScanner {
 }  // namespace
 
 std::string clean_step_text(std::string_view text, const std::string& file) {
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
-  const std::string_view body = trimmed(text);
+  const std::string_view body = without_blanks(text);
   if (body.empty()) throw ToolError(fmt::format("{}: the file is empty; export the design again", file));
   if (body.substr(0, kFirst.size()) != kFirst) {
     throw ToolError(

@@ -52,7 +52,10 @@ std::string read_design_text(const std::filesystem::path& path) {
       throw ToolError(fmt::format("{}: the file begins with zeros: it is no design; export it again", path.string()));
     }
   }
-  return read_text(path);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::string text = read_text(path);
+  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) text.erase(0, kByteOrderMark.size());
+  return text;
 }
 
 }  // namespace bladefit
