@@ -33,7 +33,8 @@ void append_surface(const CadFace& face, double tolerance_mm, DesignFile& design
                                           found.surface.name, found.kind, kMaxDegree, found.approximated));
   }
   design.faces.push_back(
-      {face.entity, face.name, face.layer, found.kind, found.area, found.share, face.told, face.in_body});
+      {face.entity, face.name, face.layer, found.kind, found.area, found.share, found.trims_off, found.trims_fault,
+       face.told, face.in_body});
   design.surfaces.push_back(std::move(found.surface));
 }
 
