@@ -23,7 +23,7 @@ struct Outline {
   Eigen::AlignedBox3d box;
 };
 
-/// A trim loop from one corner to the next.
+/// A trim loop from one corner to the next, or as far as its vertices are points of one edge.
 using TrimSide = std::vector<TrimVertex>;
 
 std::vector<TrimSide> sides_of(const TrimLoop& loop) {
@@ -32,7 +32,8 @@ std::vector<TrimSide> sides_of(const TrimLoop& loop) {
   for (std::size_t k = 0; k <= loop.size(); ++k) {
     const TrimVertex& vertex = loop[(static_cast<std::size_t>(first) + k) % loop.size()];
     if (!sides.empty()) sides.back().push_back(vertex);
-    if (k < loop.size() && (sides.empty() || vertex.corner)) sides.push_back({vertex});
+    const bool full = !sides.empty() && sides.back().size() == kPoints;
+    if (k < loop.size() && (sides.empty() || vertex.corner || full)) sides.push_back({vertex});
   }
   return sides;
 }

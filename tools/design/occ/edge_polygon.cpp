@@ -17,6 +17,8 @@ constexpr int kMostHalvings = 9;
 /// Parts of a curve that is no line, at least.
 constexpr int kLeastParts = 4;
 constexpr int kMostNewtonSteps = 30;
+/// A curve in space that is so many tolerances from that in the parameters is another one.
+constexpr double kOtherCurve = 1000;
 /// Where a part is compared with its curve.
 constexpr std::array<double, 5> kLookedAt = {0.12, 0.31, 0.5, 0.69, 0.88};
 
@@ -24,10 +26,15 @@ Eigen::Vector3d vector_of(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
 
 class EdgeFollower {
  public:
-  EdgeFollower(const Geom2d_Curve& curve, const FaceBasis& basis, double tolerance)
-      : curve_(curve), basis_(basis), tolerance_(tolerance), same_(basis.surface == basis.spline) {}
+  EdgeFollower(const EdgeCurves& edge, const FaceBasis& basis, double tolerance)
+      : curve_(*edge.flat),
+        space_(edge.space.get()),
+        basis_(basis),
+        tolerance_(tolerance),
+        same_(basis.surface == basis.spline) {}
 
   EdgePolygon run(double first, double last) {
+    if (space_ != nullptr && apart(first, last) > kOtherCurve * tolerance_) space_ = nullptr;
     const std::vector<double> parts = parts_of(first, last);
     result_.places.push_back(place_at(parts.front()));
     for (std::size_t k = 1; k < parts.size(); ++k) {
@@ -67,7 +74,19 @@ class EdgeFollower {
     return rising;
   }
 
+  /// How far the curve in space is from that in the parameters.
+  [[nodiscard]] double apart(double first, double last) const {
+    double largest = 0;
+    for (const double share : kLookedAt) {
+      const double t = first + share * (last - first);
+      const gp_Pnt2d place = curve_.Value(t);
+      largest = std::max(largest, space_->Value(t).Distance(basis_.surface->Value(place.X(), place.Y())));
+    }
+    return largest;
+  }
+
   [[nodiscard]] Eigen::Vector3d point_at(double t) const {
+    if (space_ != nullptr) return vector_of(space_->Value(t).XYZ());
     const gp_Pnt2d place = curve_.Value(t);
     return vector_of(basis_.surface->Value(place.X(), place.Y()).XYZ());
   }
@@ -93,13 +112,14 @@ class EdgeFollower {
                          .XYZ());
   }
 
-  /// In the box of the spline, whose parameters may run otherwise than those of the surface: then by Newton's method.
+  /// In the box of the spline, whose parameters may run otherwise than those of the surface: then by Newton's method, as
+  /// for a curve in space.
   [[nodiscard]] Eigen::Vector2d place_at(double t) const {
     const gp_Pnt2d given = curve_.Value(t);
     const FaceBox& box = basis_.box;
     const Eigen::Vector2d even((given.X() - box.u_min) / (box.u_max - box.u_min),
                                (given.Y() - box.v_min) / (box.v_max - box.v_min));
-    return same_ ? even : nearest(even.cwiseMax(0.0).cwiseMin(1.0), point_at(t));
+    return same_ && space_ == nullptr ? even : nearest(even.cwiseMax(0.0).cwiseMin(1.0), point_at(t));
   }
 
   [[nodiscard]] Eigen::Vector2d nearest(Eigen::Vector2d place, const Eigen::Vector3d& wanted) const {
@@ -132,7 +152,7 @@ class EdgeFollower {
       const double t = from.t + share * (to.t - from.t);
       const Eigen::Vector2d place = place_at(t);
       const double along = square > 0 ? std::clamp((place - from.place).dot(way) / square, 0.0, 1.0) : 0.0;
-      largest = std::max(largest, (point_of(from.place + along * way) - point_at(t)).norm());
+      largest = std::max(largest, (point_of(from.place + along * way) - point_of(place)).norm());
     }
     return largest;
   }
@@ -151,6 +171,7 @@ class EdgeFollower {
   }
 
   const Geom2d_Curve& curve_;
+  const Geom_Curve* space_;
   const FaceBasis& basis_;
   double tolerance_;
   bool same_;
@@ -159,10 +180,9 @@ class EdgeFollower {
 
 }  // namespace
 
-EdgePolygon edge_polygon(const Geom2d_Curve& curve, double first, double last, bool reversed, const FaceBasis& basis,
-                         double tolerance) {
-  EdgePolygon polygon = EdgeFollower(curve, basis, tolerance).run(first, last);
-  if (!reversed) return polygon;
+EdgePolygon edge_polygon(const EdgeCurves& edge, const FaceBasis& basis, double tolerance) {
+  EdgePolygon polygon = EdgeFollower(edge, basis, tolerance).run(edge.first, edge.last);
+  if (!edge.reversed) return polygon;
   std::ranges::reverse(polygon.places);
   std::swap(polygon.from, polygon.to);
   std::swap(polygon.first_way, polygon.last_way);

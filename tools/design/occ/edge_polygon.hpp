@@ -1,5 +1,6 @@
 #pragma once
 #include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
 
 #include <Eigen/Core>
 #include <vector>
@@ -16,8 +17,16 @@ struct EdgePolygon {
   double off = 0;                       ///< how far it was seen to be off its curve, before the placement
 };
 
-/// `reversed`: the loop runs against the curve from `first` to `last`. `tolerance`: before the placement.
-[[nodiscard]] EdgePolygon edge_polygon(const Geom2d_Curve& curve, double first, double last, bool reversed,
-                                       const FaceBasis& basis, double tolerance);
+/// A bounding curve as a file gives it: in the parameters of the surface, and in space, which counts where both do not
+/// agree: it is the one that the neighbouring face shares.
+struct EdgeCurves {
+  Handle(Geom2d_Curve) flat;
+  Handle(Geom_Curve) space;  ///< of the same parameter, before the placement; may be null
+  double first = 0, last = 0;
+  bool reversed = false;  ///< the loop runs against them
+};
+
+/// `tolerance`: before the placement. A curve in space that is over a thousand tolerances off counts as another one.
+[[nodiscard]] EdgePolygon edge_polygon(const EdgeCurves& edge, const FaceBasis& basis, double tolerance);
 
 }  // namespace bladefit

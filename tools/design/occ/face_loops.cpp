@@ -37,16 +37,30 @@ void settle_on_sides(EdgePolygon& edge) {
   for (Eigen::Vector2d& place : edge.places) place = place.cwiseMax(0.0).cwiseMin(1.0);
 }
 
+/// The curve of an edge in space, where the surface of the face stands before its placement; null where there is none
+/// of the same parameter.
+Handle(Geom_Curve) curve_before(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  double first = 0, last = 0;
+  if (BRep_Tool::Degenerated(edge) || !BRep_Tool::SameParameter(edge)) return {};
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+  TopLoc_Location place;
+  BRep_Tool::Surface(face, place);
+  if (curve.IsNull() || place.IsIdentity()) return curve;
+  return Handle(Geom_Curve)::DownCast(curve->Transformed(place.Transformation().Inverted()));
+}
+
 /// The curves of a wire, each in the sense of the face that looks along Su x Sv.
 std::vector<EdgePolygon> edges_of(const TopoDS_Shape& wire, const TopoDS_Face& face, const FaceBasis& basis,
                                   double tolerance) {
   std::vector<EdgePolygon> edges;
   for (TopExp_Explorer explorer(wire, TopAbs_EDGE); explorer.More(); explorer.Next()) {
     const TopoDS_Edge& edge = TopoDS::Edge(explorer.Current());
-    double first = 0, last = 0;
-    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
-    if (curve.IsNull() || !(first < last)) continue;
-    edges.push_back(edge_polygon(*curve, first, last, edge.Orientation() == TopAbs_REVERSED, basis, tolerance));
+    EdgeCurves curves;
+    curves.flat = BRep_Tool::CurveOnSurface(edge, face, curves.first, curves.last);
+    curves.reversed = edge.Orientation() == TopAbs_REVERSED;
+    if (curves.flat.IsNull() || !(curves.first < curves.last)) continue;
+    curves.space = curve_before(edge, face);
+    edges.push_back(edge_polygon(curves, basis, tolerance));
     settle_on_sides(edges.back());
   }
   return edges;
