@@ -67,6 +67,23 @@ void keep_marked(DesignFile& design, const std::vector<bool>& kept) {
 
 }  // namespace
 
+void leave_flat_caps(DesignFile& design) {
+  std::vector<bool> kept;
+  double left_out = 0, whole = 0;
+  for (std::size_t k = 0; k < design.faces.size(); ++k) {
+    kept.push_back(design.faces[k].kind != "plane" || design.surfaces[k].trims.empty());
+    whole += design.faces[k].area;
+    if (!kept.back()) left_out += design.faces[k].area;
+  }
+  const auto caps = std::ranges::count(kept, false);
+  if (caps == 0 || caps == std::ssize(kept)) return;
+  design.warnings.push_back(
+      fmt::format("left out, {:.1f} % of the area: {} trimmed plane{}, with which a solid model is closed: points there "
+                  "are beyond the edge of the blade; choose them with --face",
+                  100 * left_out / whole, caps, caps == 1 ? "" : "s"));
+  keep_marked(design, kept);
+}
+
 void keep_faces(DesignFile& design, const std::vector<std::string>& patterns, const std::string& file) {
   std::vector<bool> kept(design.faces.size(), false);
   for (const std::string& pattern : patterns) {

@@ -93,6 +93,7 @@ LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const 
   } else if (!choice.allow_missing) {
     refuse_missing(design, file);
   }
+  if (choice.faces.empty()) leave_flat_caps(design);
   if (design.surfaces.empty()) throw ToolError(fmt::format("{}: no face that can be read is left", file));
   const OutwardSide side = choose_sides(design, choice.outward, file);
   LoadedDesign loaded{write_image(design.surfaces, design.unit, side.sign), design.warnings,

@@ -17,6 +17,8 @@ constexpr int kMostHalvings = 9;
 /// Parts of a curve that is no line, at least.
 constexpr int kLeastParts = 4;
 constexpr int kMostNewtonSteps = 30;
+/// Where it is asked whether a curve runs along a side.
+constexpr int kSidePlaces = 16;
 /// A curve in space that is so many tolerances from that in the parameters is another one.
 constexpr double kOtherCurve = 1000;
 /// Where a part is compared with its curve.
@@ -34,7 +36,9 @@ class EdgeFollower {
         same_(basis.surface == basis.spline) {}
 
   EdgePolygon run(double first, double last) {
-    if (space_ != nullptr && apart(first, last) > kOtherCurve * tolerance_) space_ = nullptr;
+    const bool by_parameters = space_ == nullptr || along_side(first, last) ||
+                               apart(first, last) > kOtherCurve * tolerance_;
+    if (by_parameters) space_ = nullptr;
     const std::vector<double> parts = parts_of(first, last);
     result_.places.push_back(place_at(parts.front()));
     for (std::size_t k = 1; k < parts.size(); ++k) {
@@ -72,6 +76,21 @@ class EdgeFollower {
     }
     rising.push_back(last);
     return rising;
+  }
+
+  /// In the parameters it runs along a side of the box.
+  [[nodiscard]] bool along_side(double first, double last) const {
+    std::array<bool, 4> on{true, true, true, true};
+    for (int k = 0; k <= kSidePlaces; ++k) {
+      const Eigen::Vector2d place = even_place(first + (last - first) * k / kSidePlaces);
+      for (const int axis : {0, 1}) {
+        for (const int high : {0, 1}) {
+          bool& still = on[static_cast<std::size_t>(2 * axis + high)];
+          still = still && std::abs(place[axis] - high) <= kOnSide;
+        }
+      }
+    }
+    return std::ranges::find(on, true) != on.end();
   }
 
   /// How far the curve in space is from that in the parameters.
@@ -112,13 +131,17 @@ class EdgeFollower {
                          .XYZ());
   }
 
+  /// In the box of the surface.
+  [[nodiscard]] Eigen::Vector2d even_place(double t) const {
+    const gp_Pnt2d given = curve_.Value(t);
+    const FaceBox& box = basis_.box;
+    return {(given.X() - box.u_min) / (box.u_max - box.u_min), (given.Y() - box.v_min) / (box.v_max - box.v_min)};
+  }
+
   /// In the box of the spline, whose parameters may run otherwise than those of the surface: then by Newton's method, as
   /// for a curve in space.
   [[nodiscard]] Eigen::Vector2d place_at(double t) const {
-    const gp_Pnt2d given = curve_.Value(t);
-    const FaceBox& box = basis_.box;
-    const Eigen::Vector2d even((given.X() - box.u_min) / (box.u_max - box.u_min),
-                               (given.Y() - box.v_min) / (box.v_max - box.v_min));
+    const Eigen::Vector2d even = even_place(t);
     return same_ && space_ == nullptr ? even : nearest(even.cwiseMax(0.0).cwiseMin(1.0), point_at(t));
   }
 

@@ -9,6 +9,9 @@
 
 namespace bladefit {
 
+/// What is nearer to a side of the box than this share of it lies on it: boundary curves are approximations.
+inline constexpr double kOnSide = 1e-4;
+
 /// One bounding curve of a face as a polygon in the parameters of the box of its spline, 0..1, in the sense of the loop.
 struct EdgePolygon {
   std::vector<Eigen::Vector2d> places;
@@ -18,7 +21,7 @@ struct EdgePolygon {
 };
 
 /// A bounding curve as a file gives it: in the parameters of the surface, and in space, which counts where both do not
-/// agree: it is the one that the neighbouring face shares.
+/// agree, but along the sides of the box: it is the one that the neighbouring face shares.
 struct EdgeCurves {
   Handle(Geom2d_Curve) flat;
   Handle(Geom_Curve) space;  ///< of the same parameter, before the placement; may be null

@@ -18,8 +18,6 @@
 namespace bladefit {
 namespace {
 
-/// What is nearer to a side of the box than this share of it lies on it: boundary curves are approximations.
-constexpr double kOnSide = 1e-4;
 /// Ends of curves that meet may be this far apart in the parameters of the box, as long as they meet in space.
 constexpr double kMostParameterGap = 0.05;
 /// How far beside a piece the inside of a loop is looked for [pieces].
@@ -85,6 +83,15 @@ bool bends(const Eigen::Vector3d& before, const Eigen::Vector3d& after) {
   return before.dot(after) < std::cos(kMostBend);
 }
 
+/// Where two curves meet; on a side of the box where one of them is.
+Eigen::Vector2d meeting(const Eigen::Vector2d& end, const Eigen::Vector2d& begin) {
+  Eigen::Vector2d place = begin;
+  for (const int axis : {0, 1}) {
+    if (end[axis] == 0 || end[axis] == 1) place[axis] = end[axis];
+  }
+  return place;
+}
+
 /// The polygon of a whole wire; `gap`: the widest between two of its curves.
 struct WirePolygon {
   TrimLoop loop;
@@ -100,8 +107,8 @@ WirePolygon joined(const std::vector<EdgePolygon>& edges) {
     wire.parameter_gap = std::max(wire.parameter_gap, (edge.places.front() - before.places.back()).norm());
     // The end of a curve is the beginning of the next one.
     for (std::size_t i = 0; i + 1 < edge.places.size(); ++i) {
-      wire.loop.push_back(
-          {edge.places[i].x(), edge.places[i].y(), i == 0 && bends(before.last_way, edge.first_way)});
+      const Eigen::Vector2d place = i > 0 ? edge.places[i] : meeting(before.places.back(), edge.places[0]);
+      wire.loop.push_back({place.x(), place.y(), i == 0 && bends(before.last_way, edge.first_way)});
     }
   }
   return wire;
