@@ -77,10 +77,10 @@ void leave_flat_caps(DesignFile& design) {
   }
   const auto caps = std::ranges::count(kept, false);
   if (caps == 0 || caps == std::ssize(kept)) return;
-  design.warnings.push_back(
-      fmt::format("left out, {:.1f} % of the area: {} trimmed plane{}, with which a solid model is closed: points there "
-                  "are beyond the edge of the blade; choose them with --face",
-                  100 * left_out / whole, caps, caps == 1 ? "" : "s"));
+  design.warnings.push_back(fmt::format(
+      "left out, {:.1f} % of the area: {} trimmed plane{}, with which a solid model is closed: points there "
+      "are beyond the edge of the blade; choose them with --face",
+      100 * left_out / whole, caps, caps == 1 ? "" : "s"));
   keep_marked(design, kept);
 }
 

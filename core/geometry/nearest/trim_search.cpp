@@ -21,14 +21,18 @@ constexpr double kLevel = 1e-10;
 struct SlopeHere {
   SurfacePoint at;
   Vec3 offset;
-  double along = 0;            ///< length of the tangent [mm]
+  double along = 0;  ///< length of the tangent [mm]
   double first = 0, second = 0;
 };
 
 class TrimSearch {
  public:
   TrimSearch(const Surface& surface, const Vec3& r, NearestSoFar& nearest)
-      : surface_(surface), image_(surface.image()), r_(r), nearest_(nearest), level_(kLevel * surface.half_diagonal()) {}
+      : surface_(surface),
+        image_(surface.image()),
+        r_(r),
+        nearest_(nearest),
+        level_(kLevel * surface.half_diagonal()) {}
 
   LeafOutcome run(const ImageTrimRun& run, std::uint32_t budget) {
     for (std::uint32_t k = run.first; k < run.first + run.count; ++k) {
@@ -92,9 +96,7 @@ class TrimSearch {
     if (!convex_at(before, line_)) return;
     const SlopeHere here = slope_at(0.0);
     if (!rises(here.at, here.offset, line_.du, line_.dv)) return;
-    const SurfacePoint other = before.span == line_.span
-                                   ? here.at
-                                   : surface_.evaluate({before.span, line_.u, line_.v});
+    const SurfacePoint other = before.span == line_.span ? here.at : surface_.evaluate({before.span, line_.u, line_.v});
     if (!rises(other, here.offset, -before.du, -before.dv)) return;
     // Half way between the two, which a straight loop needs.
     const double size_before = std::hypot(before.du, before.dv), size = std::hypot(line_.du, line_.dv);
@@ -145,7 +147,8 @@ class TrimSearch {
     for (int k = 0; k < kMaxTrimSteps && std::abs(here.first) > 1e-3 * level_ * here.along; ++k) {
       (here.first > 0.0 ? high : low) = t;
       double next = t - here.first / here.second;
-      if (!(next > low && next < high)) next = next <= from || next >= to ? std::clamp(next, from, to) : 0.5 * (low + high);
+      if (!(next > low && next < high))
+        next = next <= from || next >= to ? std::clamp(next, from, to) : 0.5 * (low + high);
       if (next == t) break;
       t = next;
       here = slope_at(t);

@@ -146,8 +146,8 @@ bool rectangle_valid(const ImageLeaf& leaf) {
          leaf.t_min < leaf.t_max && leaf.t_max <= 1.0;
 }
 
-/// The leaves of a span follow each other and cover its area: they are cut by halves, so that areas add up exactly. With
-/// trim loops some are left out.
+/// The leaves of a span follow each other and cover its area: they are cut by halves, so that areas add up exactly.
+/// With trim loops some are left out.
 bool leaves_valid(const DesignImage& image) {
   std::size_t i = 0;
   for (std::uint32_t span = 0; span < image.spans().size(); ++span) {

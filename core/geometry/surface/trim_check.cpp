@@ -67,7 +67,8 @@ bool slabs_valid(const DesignImage& image) {
   return next_slab == image.slabs().size() && next_trim == image.slab_trims().size();
 }
 
-/// Every slab that the piece reaches into holds it. Together with the number of trims in all slabs this bounds the cost.
+/// Every slab that the piece reaches into holds it. Together with the number of trims in all slabs this bounds the
+/// cost.
 bool held_by_slabs(const DesignImage& image, std::uint32_t index) {
   const ImageTrim& trim = image.trims()[index];
   const ImagePatch& patch = image.patches()[image.spans()[trim.span].patch];

@@ -93,7 +93,8 @@ TEST(Trim, WalksThatEndBeyondALoopSaySo) {
 
 /// The margin to the runner-up knows the loops: while a point moves by less than half of it, its foot stays nearest.
 TEST(Trim, MarginsHoldBesideLoops) {
-  const CompiledDesign design(flat_design({plate_with_square_hole(), displaced(flat_sheet({{0, 0, 0}, {100, 0, 0}}), {0, 0, -9})}));
+  const CompiledDesign design(
+      flat_design({plate_with_square_hole(), displaced(flat_sheet({{0, 0, 0}, {100, 0, 0}}), {0, 0, -9})}));
   const Surface& surface = design.surface();
   std::mt19937 random(9);
   std::uniform_real_distribution<double> place(35.0, 65.0), unit(-1.0, 1.0);

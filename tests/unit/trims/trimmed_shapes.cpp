@@ -77,10 +77,9 @@ TopoDS_Shape plate_with_holes() {
   outline.Close();
   const Handle(Geom_Plane) plane = new Geom_Plane(gp_Pln());
   BRepBuilderAPI_MakeFace face(plane, outline.Wire());
-  const std::vector<Handle(Geom2d_Curve)> holes = {
-      new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(30, 30), gp_Dir2d(1, 0)), 9),
-      new Geom2d_Ellipse(gp_Ax2d(gp_Pnt2d(65, 22), gp_Dir2d(1, 1)), 8, 3),
-      new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(30, 50), gp_Dir2d(1, 0)), 0.5)};
+  const std::vector<Handle(Geom2d_Curve)> holes = {new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(30, 30), gp_Dir2d(1, 0)), 9),
+                                                   new Geom2d_Ellipse(gp_Ax2d(gp_Pnt2d(65, 22), gp_Dir2d(1, 1)), 8, 3),
+                                                   new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(30, 50), gp_Dir2d(1, 0)), 0.5)};
   for (const Handle(Geom2d_Curve) & hole : holes) {
     TopoDS_Wire wire = wire_on(plane, {hole});
     wire.Reverse();
@@ -106,8 +105,8 @@ TopoDS_Face leaf_shape(double middle, double width) {
     TColgp_Array1OfPnt2d points(1, 15);
     for (int k = 0; k < 15; ++k) {
       const double t = k / 14.0;
-      points.SetValue(k + 1, gp_Pnt2d(0.1 + 0.8 * t, middle + 0.05 * std::sin(5 * t) +
-                                                         sign * width * std::sin(std::numbers::pi * t)));
+      points.SetValue(k + 1, gp_Pnt2d(0.1 + 0.8 * t,
+                                      middle + 0.05 * std::sin(5 * t) + sign * width * std::sin(std::numbers::pi * t)));
     }
     const Handle(Geom2d_BSplineCurve) spline = Geom2dAPI_PointsToBSpline(points).Curve();
     return spline.get();
@@ -149,9 +148,7 @@ TopoDS_Shape blade_body() {
 }
 
 /// Lies along x, its upper side at z = 20.
-TopoDS_Shape hub() {
-  return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-40, 0, 0), gp_Dir(1, 0, 0)), 20.0, 80.0).Shape();
-}
+TopoDS_Shape hub() { return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-40, 0, 0), gp_Dir(1, 0, 0)), 20.0, 80.0).Shape(); }
 
 bool near_hub(const TopoDS_Edge& edge) {
   double first = 0, last = 0;

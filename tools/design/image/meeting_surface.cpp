@@ -21,8 +21,8 @@ constexpr double kWay = 3.0, kFarthest = 0.75;
 /// A blunt edge is no thicker than this [half diagonals].
 constexpr double kThickest = 0.05;
 
-/// A place on a trim loop counts as so much nearer than one in the middle of a face [gaps]: loops of faces that meet are
-/// a tolerance apart, or overlap by it.
+/// A place on a trim loop counts as so much nearer than one in the middle of a face [gaps]: loops of faces that meet
+/// are a tolerance apart, or overlap by it.
 constexpr double kLoopFirst = 0.25;
 /// An edge that faces another one across the material lies this deep at least [way].
 constexpr double kLeastDepth = 0.5;
@@ -188,7 +188,8 @@ bool MeetingSurface::reaches(const Vec3& point, const Vec3& direction) const {
   const double way = kWay * gap_;
   const ProjectionQuery query{point + way * direction, Vec3::Zero(), 0.0};
   const Projection found = project_global(surface_, query, nullptr).nearest;
-  return found.converged && !found.fixed_u && !found.fixed_v && !found.on_trim() && found.offset.norm() < kFarthest * way;
+  return found.converged && !found.fixed_u && !found.fixed_v && !found.on_trim() &&
+         found.offset.norm() < kFarthest * way;
 }
 
 }  // namespace bladefit

@@ -36,8 +36,8 @@ class EdgeFollower {
         same_(basis.surface == basis.spline) {}
 
   EdgePolygon run(double first, double last) {
-    const bool by_parameters = space_ == nullptr || along_side(first, last) ||
-                               apart(first, last) > kOtherCurve * tolerance_;
+    const bool by_parameters =
+        space_ == nullptr || along_side(first, last) || apart(first, last) > kOtherCurve * tolerance_;
     if (by_parameters) space_ = nullptr;
     const std::vector<double> parts = parts_of(first, last);
     result_.places.push_back(place_at(parts.front()));
@@ -120,15 +120,15 @@ class EdgeFollower {
     const Eigen::Vector3d way = along.X() * vector_of(along_u.XYZ()) + along.Y() * vector_of(along_v.XYZ());
     const double size = way.norm();
     return size > 1e-12 * (along_u.Magnitude() + along_v.Magnitude()) * along.Magnitude() ? Eigen::Vector3d(way / size)
-                                                                                        : Eigen::Vector3d::Zero();
+                                                                                          : Eigen::Vector3d::Zero();
   }
 
   [[nodiscard]] Eigen::Vector3d point_of(const Eigen::Vector2d& place) const {
     const FaceBox& box = basis_.spline_box;
-    return vector_of(basis_.spline
-                         ->Value(box.u_min + place.x() * (box.u_max - box.u_min),
-                                 box.v_min + place.y() * (box.v_max - box.v_min))
-                         .XYZ());
+    return vector_of(
+        basis_.spline
+            ->Value(box.u_min + place.x() * (box.u_max - box.u_min), box.v_min + place.y() * (box.v_max - box.v_min))
+            .XYZ());
   }
 
   /// In the box of the surface.
@@ -138,8 +138,8 @@ class EdgeFollower {
     return {(given.X() - box.u_min) / (box.u_max - box.u_min), (given.Y() - box.v_min) / (box.v_max - box.v_min)};
   }
 
-  /// In the box of the spline, whose parameters may run otherwise than those of the surface: then by Newton's method, as
-  /// for a curve in space.
+  /// In the box of the spline, whose parameters may run otherwise than those of the surface: then by Newton's method,
+  /// as for a curve in space.
   [[nodiscard]] Eigen::Vector2d place_at(double t) const {
     const Eigen::Vector2d even = even_place(t);
     return same_ && space_ == nullptr ? even : nearest(even.cwiseMax(0.0).cwiseMin(1.0), point_at(t));

@@ -12,7 +12,8 @@ namespace bladefit {
 /// What is nearer to a side of the box than this share of it lies on it: boundary curves are approximations.
 inline constexpr double kOnSide = 1e-4;
 
-/// One bounding curve of a face as a polygon in the parameters of the box of its spline, 0..1, in the sense of the loop.
+/// One bounding curve of a face as a polygon in the parameters of the box of its spline, 0..1, in the sense of the
+/// loop.
 struct EdgePolygon {
   std::vector<Eigen::Vector2d> places;
   Eigen::Vector3d first_way, last_way;  ///< unit tangents in space at its ends; zero where it is a point

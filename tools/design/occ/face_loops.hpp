@@ -13,11 +13,11 @@ namespace bladefit {
 
 /// A surface under a face and what it was turned into.
 struct FaceBasis {
-  Handle(Geom_Surface) surface;       ///< as the face's curves know it, before its placement
-  FaceBox box;                        ///< of the face on it
-  Handle(Geom_BSplineSurface) spline; ///< the same surface, over `spline_box`; its parameters may run otherwise
+  Handle(Geom_Surface) surface;        ///< as the face's curves know it, before its placement
+  FaceBox box;                         ///< of the face on it
+  Handle(Geom_BSplineSurface) spline;  ///< the same surface, over `spline_box`; its parameters may run otherwise
   FaceBox spline_box;
-  double scale = 1;                   ///< of the placement
+  double scale = 1;  ///< of the placement
 };
 
 /// The trim loops of a face.
