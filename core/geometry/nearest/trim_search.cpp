@@ -40,7 +40,8 @@ class TrimSearch {
       if (least_to(trim) >= nearest_.limit()) continue;
       enter(k);
       look_at_start();
-      look_along(std::min(budget - outcome_.pieces, kMaxTrimParts));
+      // A piece along a collapsed side is a point.
+      if (trim.slope > level_) look_along(std::min(budget - outcome_.pieces, kMaxTrimParts));
     }
     return outcome_;
   }

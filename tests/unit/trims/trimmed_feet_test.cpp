@@ -214,7 +214,7 @@ TEST(TrimmedFeet, AreThoseThatOpenCascadeFinds) {
     std::printf(
         "  %zu points, %zu wrong, %zu kinds wrong, %zu unproven, %zu on free edges, %zu missed by the reference\n",
         tally.points, tally.wrong, tally.kinds, tally.unproven, tally.on_edges, tally.missed_by_reference);
-    EXPECT_LE(tally.unproven * 1000, tally.points);
+    EXPECT_LE(tally.unproven * 200, tally.points);
   }
 }
 
