@@ -200,13 +200,21 @@ TopoDS_Shape two_half_faces() {
 
 }  // namespace
 
-std::vector<TrimmedShape> trimmed_shapes() {
-  return {{"plate with holes", plate_with_holes()},
-          {"sheet with a hole", sheet_with_hole()},
-          {"slivers", slivers()},
-          {"two half faces", two_half_faces()},
-          {"trimmed tip", blade_with_trimmed_tip(), true},
-          {"root fillet", blade_with_fillet(), true}};
+TrimmedShape trimmed_shape(std::size_t index) {
+  switch (index) {
+    case 0:
+      return {"plate with holes", plate_with_holes()};
+    case 1:
+      return {"sheet with a hole", sheet_with_hole()};
+    case 2:
+      return {"slivers", slivers()};
+    case 3:
+      return {"two half faces", two_half_faces()};
+    case 4:
+      return {"trimmed tip", blade_with_trimmed_tip(), true};
+    default:
+      return {"root fillet", blade_with_fillet(), true};
+  }
 }
 
 }  // namespace bladefit::testing

@@ -1,8 +1,8 @@
 #pragma once
 #include <TopoDS_Shape.hxx>
 
+#include <cstddef>
 #include <string>
-#include <vector>
 
 namespace bladefit::testing {
 
@@ -13,8 +13,9 @@ struct TrimmedShape {
   bool closed = false;  ///< a body: its sides are told
 };
 
-/// A plate with holes, a curved sheet with a hole and with slivers beside it, a lens-shaped blade on a hub with a root
-/// fillet, the same with a trimmed tip, and a closed surface cut into two half faces.
-[[nodiscard]] std::vector<TrimmedShape> trimmed_shapes();
+/// By number: a plate with holes, a curved sheet with a hole, slivers on it, a closed surface cut into two half faces,
+/// a lens-shaped blade with a trimmed tip, and one on a hub with a root fillet.
+inline constexpr std::size_t kTrimmedShapes = 6;
+[[nodiscard]] TrimmedShape trimmed_shape(std::size_t index);
 
 }  // namespace bladefit::testing
