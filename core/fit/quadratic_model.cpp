@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/algebra/cross_matrix.hpp"
+#include "core/geometry/surface/trim.hpp"
 
 namespace bladefit {
 namespace {
@@ -59,6 +60,17 @@ void add_surface_bend(const Projection& p, const Vec3& n, const Lever& lever, Ma
   add_outer(bend, -1.0 / det, l_v, k_uv * l_u + k_vv * l_v);
 }
 
+/// A curve that a projection is held at: its first and second derivative.
+struct HeldCurve {
+  Vec3 tangent, second;
+};
+
+/// That of a trim loop is straight in the parameters.
+HeldCurve held_curve(const Projection& p) {
+  if (p.on_trim()) return {tangent_along(p.at, p.trim.du, p.trim.dv), second_along(p.at, p.trim.du, p.trim.dv)};
+  return p.fixed_u ? HeldCurve{p.at.s_v, p.at.s_vv} : HeldCurve{p.at.s_u, p.at.s_uu};
+}
+
 /// (I - n n' - t t' / (t.t - e.S_tt)) / |e| on an edge with tangent t; without t at a corner. Where n points against e,
 /// the distance is negative, and so is this.
 void add_curve_bend(const Projection& p, const Vec3& n, const Lever& lever, Mat6& bend) {
@@ -69,9 +81,10 @@ void add_curve_bend(const Projection& p, const Vec3& n, const Lever& lever, Mat6
   }
   const Vec6 l_n = lever(n);
   add_outer(bend, -inverse, l_n, l_n);
-  if (p.fixed_u && p.fixed_v) return;
-  const Vec3& t = p.fixed_u ? p.at.s_v : p.at.s_u;
-  const double denominator = t.squaredNorm() - p.offset.dot(p.fixed_u ? p.at.s_vv : p.at.s_uu);
+  if ((p.fixed_u && p.fixed_v) || p.trim.at_corner) return;
+  const HeldCurve curve = held_curve(p);
+  const Vec3& t = curve.tangent;
+  const double denominator = t.squaredNorm() - p.offset.dot(curve.second);
   if (!(denominator > 1e-9 * t.squaredNorm())) return;
   const Vec6 l_t = lever(t);
   add_outer(bend, -inverse / denominator, l_t, l_t);
@@ -121,7 +134,7 @@ DistanceRow distance_row(const Projection& projection, const Foot& foot, const V
   row.distance = foot.distance;
   Vec3 n = foot.normal;
   const double length = projection.offset.norm();
-  const bool of_edge = (projection.fixed_u || projection.fixed_v) && length > 0.0;
+  const bool of_edge = (projection.fixed_u || projection.fixed_v || projection.on_trim()) && length > 0.0;
   if (of_edge) {
     // The distance is that to the curve, with a sign at a seam or a joint.
     const double side = n.dot(projection.offset) < 0.0 ? -1.0 : 1.0;

@@ -93,9 +93,10 @@ DistanceRow FootFinder::row(const Measurement& m, const Vec6& x) const {
 /// Whether the projection that a point was tracked to is its nearest: where that is in doubt, the design is searched.
 void FootFinder::examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const {
   const Surface& surface = problem_.surface;
-  if (search == Search::keep && m.projection.converged && !falls_over_seam(surface, m.projection)) return;
+  const bool tracked = m.projection.converged && !m.projection.outside;
+  if (search == Search::keep && tracked && !falls_over_seam(surface, m.projection)) return;
   ProjectionQuery query{m.r, pose.rotation * point.approach};
-  const bool doubtful = !m.projection.converged || m.projection.fixed_u || m.projection.fixed_v ||
+  const bool doubtful = !tracked || left_trim(point) || m.projection.fixed_u || m.projection.fixed_v ||
                         !faces_probe(surface, m.projection, query.approach);
   // Distances change by no more than the point moves, so within half its margin no local minimum that was there can
   // have come nearer than the tracked foot. A newborn one could: refine() ends with a search of every foot.
@@ -105,12 +106,18 @@ void FootFinder::examine(const StoredPoint& point, const Pose& pose, Search sear
   if (search == Search::past_margin) query.margin = tuning::kSearchMargin * problem_.frame.length;
   const GlobalProjection global = project_global(surface, query, &m.projection);
   // Newton's method does not end on a crease of the surface: there it is the foot of before that is found again.
-  const Vec3& before = m.projection.converged ? m.projection.at.s : point.foot.point;
+  const Vec3& before = tracked ? m.projection.at.s : point.foot.point;
   m.changed = !same_foot(global.nearest.at.s, before);
   m.projection = global.nearest;
   m.searched = m.ranked = true;
   m.runner_up = global.runner_up;
   m.proven = global.proven;
+}
+
+/// Its foot was at the end of a face with trim loops: these do not hold what is tracked from there.
+bool FootFinder::left_trim(const StoredPoint& point) const {
+  const Surface& surface = problem_.surface;
+  return surface.has_trims() && point.foot.kind != FootKind::interior && surface.patch_of(point.span).slab_count > 0;
 }
 
 bool FootFinder::same_foot(const Vec3& a, const Vec3& b) const {
@@ -123,7 +130,7 @@ bool FootFinder::weigh_runner_up(const StoredPoint& point, const ProjectionQuery
   const double margin_to_third = point.runner_up.margin_to_third - 2.0 * (m.r - point.ranked_at).norm();
   if (!(margin_to_third > 0.0)) return false;
   const Projection other = project_local(problem_.surface, m.r, point.runner_up.place);
-  if (!other.converged) return false;
+  if (!other.converged || other.outside) return false;
   double margin = other.offset.norm() - m.projection.offset.norm();
   SurfacePlace place = other.place;
   if (same_foot(other.at.s, m.projection.at.s)) {

@@ -57,6 +57,7 @@ class FootFinder {
                                          const LaneBlock& block, std::uint32_t lane) const;
   void examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const;
   [[nodiscard]] bool weigh_runner_up(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const;
+  [[nodiscard]] bool left_trim(const StoredPoint& point) const;
   [[nodiscard]] bool same_foot(const Vec3& a, const Vec3& b) const;
 
   const FitProblem& problem_;

@@ -40,7 +40,7 @@ class CurveFoot {
   SurfacePlace move_to(const Vec3& on_curve) {
     if (foot_) {
       foot_ = project_local(surface_, on_curve, foot_->place);
-      if (foot_->converged && !foot_->fixed_u && !foot_->fixed_v) return foot_->place;
+      if (foot_->converged && !foot_->outside && !foot_->fixed_u && !foot_->fixed_v) return foot_->place;
     }
     foot_ = project_global(surface_, {on_curve}, nullptr).nearest;
     ++searches_;

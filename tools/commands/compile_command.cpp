@@ -37,8 +37,10 @@ All its lengths are mm; the unit of the design file (mm or inch) is kept for dis
 
 Faces: B-splines are taken as they are, planes, cylinders, cones, spheres, tori, extrusions and
 surfaces of revolution become B-splines exactly, offsets and degrees over 9 within 1e-6 of the size
-of the design; that is told. A face is cut at the (u, v) box of its trim; what a trim leaves out inside
-of the box is told. Patches have the numbers of the faces in the file (of faces named PATCH1, PATCH2,
+of the design; that is told. A face is cut at the (u, v) box of its trim; a trim inside of the box
+becomes loops of straight pieces in (u, v), within 1e-6 of the size of the curves of the file, beyond
+which there are no feet. Trimmed planes beside other faces, which close a solid model at root and tip,
+are left out unless they are named with --face; that is told. Patches have the numbers of the faces in the file (of faces named PATCH1, PATCH2,
 ... of a STEP file those), 0 first, so that STEP and IGES of the same system agree. --list shows all.
 
 Outward side: which side of the surface is away from the material decides between cut and weld.

@@ -190,6 +190,13 @@ void run_split(const SplitFlags& flags) {
   }
   fmt::print("{} -> {}\n", flags.design, flags.output);
   for (const std::string& warning : design.warnings) fmt::print("  {}\n", warning);
+  for (std::size_t k = 0; k < design.surfaces.size(); ++k) {
+    if (design.surfaces[k].trims.empty()) continue;
+    fmt::print(
+        "  patch {} is trimmed: the new file holds all of its surface, beyond the trim too; split it in the CAD "
+        "system where that matters\n",
+        k);
+  }
   print_parts(parts, surfaces, flags.buffer);
 }
 

@@ -10,8 +10,6 @@
 namespace bladefit {
 namespace {
 
-/// Bounds that leave out less than this share of their box are as good as the box.
-constexpr double kUncut = 0.995;
 constexpr std::size_t kListedCuts = 4;
 constexpr double kSmallest_mm = 10, kLargest_mm = 20000;
 /// A sliver is narrower than this part of the design, in mean width.
@@ -44,15 +42,28 @@ std::string trim_warning(const DesignFile& design, const std::string& file) {
   std::string list;
   std::size_t count = 0;
   for (const DesignFace& face : design.faces) {
-    if (face.share >= kUncut || ++count > kListedCuts) continue;
-    list += fmt::format("{}{}: {:.0f} %", count == 1 ? "" : ", ", title(face), 100 * (1 - face.share));
+    if (face.trims_fault.empty() || ++count > kListedCuts) continue;
+    list += fmt::format("{}{}: {}", count == 1 ? "" : "; ", title(face), face.trims_fault);
   }
   if (count == 0) return {};
   if (count > kListedCuts) list += fmt::format(" and {} more", count - kListedCuts);
   return fmt::format(
-      "{}: trimmed faces are used up to the (u, v) box of their trim, points beyond it are judged as well; "
-      "left out by the trim, but used: {}",
+      "{}: trimmed faces are used up to the (u, v) box of their trim, points beyond it are judged as well: {}; "
+      "heal the faces in the CAD system and export them again",
       file, list);
+}
+
+std::string trim_note(const DesignFile& design) {
+  std::size_t faces = 0, loops = 0;
+  double off_mm = 0;
+  for (std::size_t k = 0; k < design.surfaces.size(); ++k) {
+    faces += design.surfaces[k].trims.empty() ? 0 : 1;
+    loops += design.surfaces[k].trims.size();
+    off_mm = std::max(off_mm, design.faces[k].trims_off);
+  }
+  if (faces == 0) return {};
+  return fmt::format("{} trimmed face{} with {} loop{}, within {:.2g} mm of the curves of the file", faces,
+                     faces == 1 ? "" : "s", loops, loops == 1 ? "" : "s", off_mm);
 }
 
 std::vector<std::string> design_doubts(const DesignFile& design) {

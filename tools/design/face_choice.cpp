@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <optional>
 
 #include "tools/files/tool_error.hpp"
@@ -15,8 +14,6 @@ namespace {
 
 /// Faces that a message lists.
 constexpr std::size_t kListed = 3;
-/// A face that fills this share of the box of its bounds is as good as the box.
-constexpr double kWhole = 0.95;
 
 std::optional<std::size_t> number_of(std::string_view text) {
   std::size_t number = 0;
@@ -70,24 +67,20 @@ void keep_marked(DesignFile& design, const std::vector<bool>& kept) {
 
 }  // namespace
 
-void leave_trimmed_caps(DesignFile& design) {
+void leave_flat_caps(DesignFile& design) {
   std::vector<bool> kept;
   double left_out = 0, whole = 0;
-  std::map<std::string, int> kinds;
-  for (const DesignFace& face : design.faces) {
-    kept.push_back(face.kind == "B-spline" || face.share >= kWhole);
-    whole += face.area;
-    if (kept.back()) continue;
-    left_out += face.area;
-    ++kinds[face.kind];
+  for (std::size_t k = 0; k < design.faces.size(); ++k) {
+    kept.push_back(design.faces[k].kind != "plane" || design.surfaces[k].trims.empty());
+    whole += design.faces[k].area;
+    if (!kept.back()) left_out += design.faces[k].area;
   }
-  if (kinds.empty() || std::ranges::find(kept, true) == kept.end()) return;
-  std::string list;
-  for (const auto& [kind, count] : kinds) list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, kind);
+  const auto caps = std::ranges::count(kept, false);
+  if (caps == 0 || caps == std::ssize(kept)) return;
   design.warnings.push_back(fmt::format(
-      "left out, {:.1f} % of the area: faces on plain surfaces that are cut inside of their (u, v) box: {}; "
-      "points there have no foot; choose them with --face",
-      100 * left_out / whole, list));
+      "left out, {:.1f} % of the area: {} trimmed plane{}, with which a solid model is closed: points there "
+      "are beyond the edge of the blade; choose them with --face",
+      100 * left_out / whole, caps, caps == 1 ? "" : "s"));
   keep_marked(design, kept);
 }
 

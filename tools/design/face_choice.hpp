@@ -19,10 +19,10 @@ namespace bladefit {
 /// Keeps the faces that one of `patterns` means, in the order of the file. Throws ToolError as faces_named does.
 void keep_faces(DesignFile& design, const std::vector<std::string>& patterns, const std::string& file);
 
-/// Leaves out the faces on planes, cylinders and other plain surfaces whose bounds leave out much of their box, with a
-/// line to the warnings: the core judges points beside such a face as on it, while without it they are beside an edge.
-/// Not where nothing else would be left.
-void leave_trimmed_caps(DesignFile& design);
+/// Leaves out trimmed planes beside other faces, with a line to the warnings: the root and the tip of a solid model,
+/// which close the blade where it was cut off. With them points beyond that cut would be judged by the cut. Not where
+/// nothing else would be left.
+void leave_flat_caps(DesignFile& design);
 
 /// Throws ToolError that lists the faces which could not be read, with their share of the design.
 void refuse_missing(const DesignFile& design, const std::string& file);

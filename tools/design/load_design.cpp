@@ -93,7 +93,7 @@ LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const 
   } else if (!choice.allow_missing) {
     refuse_missing(design, file);
   }
-  if (choice.faces.empty()) leave_trimmed_caps(design);
+  if (choice.faces.empty()) leave_flat_caps(design);
   if (design.surfaces.empty()) throw ToolError(fmt::format("{}: no face that can be read is left", file));
   const OutwardSide side = choose_sides(design, choice.outward, file);
   LoadedDesign loaded{
@@ -101,6 +101,7 @@ LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const 
   for (const DesignFace& face : design.faces) loaded.names.push_back(face.name);
   const std::vector<std::string> doubts = design_doubts(design);
   loaded.notes.insert(loaded.notes.end(), doubts.begin(), doubts.end());
+  if (std::string note = trim_note(design); !note.empty()) loaded.notes.push_back(std::move(note));
   loaded.notes.push_back(side_note(side.sign, side.reason));
   return loaded;
 }

@@ -4,6 +4,7 @@
 
 #include "core/geometry/nearest/bounding_tree.hpp"
 #include "core/geometry/nearest/leaf_search.hpp"
+#include "core/geometry/nearest/trim_search.hpp"
 
 namespace bladefit {
 namespace {
@@ -40,6 +41,7 @@ GlobalProjection search(const Surface& surface, const ProjectionQuery& query, co
   if (hint != nullptr) nearest.consider(*hint);
   const BoxDistances boxes(query.point - surface.middle());
   const ImageNode* nodes = surface.image().nodes().data();
+  const auto leaves = static_cast<std::uint32_t>(surface.image().leaves().size());
   float threshold = boxes.threshold(nearest.limit());
   Pending pending;
   pending.push(nodes[0], boxes.squares(nodes[0]), threshold);
@@ -52,7 +54,9 @@ GlobalProjection search(const Surface& surface, const ProjectionQuery& query, co
       pending.push(nodes[child], boxes.squares(nodes[child]), threshold);
       continue;
     }
-    const LeafOutcome outcome = search_leaf(surface, query, child & ~kLeafChild, kMaxPieces - pieces, nearest);
+    const std::uint32_t index = child & ~kLeafChild, budget = kMaxPieces - pieces;
+    const LeafOutcome outcome = index < leaves ? search_leaf(surface, query, index, budget, nearest)
+                                               : search_run(surface, query.point, index - leaves, budget, nearest);
     pieces += outcome.pieces;
     exhausted = exhausted || outcome.exhausted;
     threshold = boxes.threshold(nearest.limit());

@@ -1,6 +1,7 @@
 #include "core/geometry/nearest/lane_projection.hpp"
 
 #include "core/geometry/nearest/newton_walk.hpp"
+#include "core/geometry/surface/trim.hpp"
 
 namespace bladefit {
 
@@ -41,6 +42,7 @@ void LaneProjections::find(const Surface& surface) {
     place.u = d.u_min + (walk_.x[lane] + 0.5) * (d.u_max - d.u_min);
     place.v = d.v_min + (walk_.y[lane] + 0.5) * (d.v_max - d.v_min);
     place = clamped(place, ParameterLimits());
+    if (surface.has_trims()) open_[lane] = inside_face(surface.image(), place);
   }
 }
 

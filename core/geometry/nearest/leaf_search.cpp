@@ -180,7 +180,7 @@ class LeafSearch {
 
   /// The nearest minimum so far lies in the convex piece: it is its only one.
   [[nodiscard]] bool holds_nearest(const LocalRect& rect) const {
-    if (!nearest_.found() || nearest_.nearest().place.span != index_) return false;
+    if (!nearest_.found() || nearest_.nearest().place.span != index_ || nearest_.nearest().on_trim()) return false;
     const SurfacePlace& place = nearest_.nearest().place;
     const ParameterLimits limits = limits_of(rect);
     return place.u >= limits.u_min && place.u <= limits.u_max && place.v >= limits.v_min && place.v <= limits.v_max;

@@ -7,6 +7,7 @@
 #include "core/geometry/nearest/held_sides.hpp"
 #include "core/geometry/nearest/newton_walk.hpp"
 #include "core/geometry/surface/distance_quadratic.hpp"
+#include "core/geometry/surface/trim.hpp"
 
 namespace bladefit {
 namespace {
@@ -150,6 +151,13 @@ class Descent {
   Projection result_;
 };
 
+/// Outside of the trim loops, or held at a side of a patch that has some: what ends there is for the loops to say.
+bool beyond_face(const Surface& surface, const Projection& p) {
+  if (surface.patch_of(p.place.span).slab_count == 0) return false;
+  const auto at_side = [](bool fixed, double t) { return fixed && (t <= 0.0 || t >= 1.0); };
+  return at_side(p.fixed_u, p.place.u) || at_side(p.fixed_v, p.place.v) || !inside_face(surface.image(), p.place);
+}
+
 }  // namespace
 
 Projection project_local(const Surface& surface, const Vec3& r, const SurfacePlace& start,
@@ -158,6 +166,7 @@ Projection project_local(const Surface& surface, const Vec3& r, const SurfacePla
   SurfacePlace place = clamped(start, limits);
   surface.settle(place);
   if (!newton_walk(surface, r, limits, place, result)) result = Descent(surface, r, place, limits).run();
+  if (surface.has_trims()) result.outside = beyond_face(surface, result);
   return result;
 }
 

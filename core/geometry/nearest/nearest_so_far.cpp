@@ -24,6 +24,7 @@ NearestSoFar::NearestSoFar(const Surface& surface, const ProjectionQuery& query)
       directed_(query.approach.squaredNorm() > 0.5) {}
 
 void NearestSoFar::consider(const Projection& candidate) {
+  if (candidate.outside) return;
   if (!candidate.converged) {
     // Where no local minimum can be told, at a centre of curvature, the nearest place seen is the answer.
     if (!has_resort_ || candidate.distance_squared() < resort_.distance_squared()) resort_ = candidate;
@@ -52,6 +53,8 @@ void NearestSoFar::consider(const Projection& candidate) {
 
 void NearestSoFar::note_runner_up(const Projection& candidate, double distance) {
   const bool known = runner_up_distance_ < kNowhere && same(candidate.at.s, runner_up_);
+  // One on a trim loop cannot be tracked: what is known about it is known about the third as well.
+  if (candidate.on_trim()) third_distance_ = std::min(third_distance_, distance);
   if (distance >= runner_up_distance_) {
     if (!known) third_distance_ = std::min(third_distance_, distance);
     return;
@@ -70,7 +73,8 @@ GlobalProjection NearestSoFar::result(bool exhausted, std::uint32_t pieces) cons
   GlobalProjection out;
   out.nearest = !found_ && has_resort_ ? resort_ : nearest_;
   out.proven = found_ && !exhausted;
-  if (out.proven) {
+  // A foot on a trim loop is searched each time.
+  if (out.proven && !out.nearest.on_trim()) {
     out.runner_up.margin = std::max(0.0, std::min(runner_up_distance_ - distance_, margin_));
     out.runner_up.margin_to_third = std::max(0.0, std::min(third_distance_ - distance_, kShareOfTwo * margin_));
     out.runner_up.place = runner_up_place_;

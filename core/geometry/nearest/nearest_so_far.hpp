@@ -10,8 +10,8 @@ class NearestSoFar {
  public:
   NearestSoFar(const Surface& surface, const ProjectionQuery& query);
 
-  /// Takes a local minimum into account. One that does not face the probe is no foot, and neither is a place where
-  /// Newton's method found no proper minimum: that is kept as a last resort.
+  /// Takes a local minimum into account. One that does not face the probe is no foot, nor is one outside of the trim
+  /// loops, nor a place where Newton's method found no proper minimum: that is kept as a last resort.
   void consider(const Projection& candidate);
 
   [[nodiscard]] bool found() const { return found_; }

@@ -8,6 +8,7 @@
 #include "core/crc32.hpp"
 #include "core/geometry/surface/taylor.hpp"
 #include "core/geometry/surface/tree_check.hpp"
+#include "core/geometry/surface/trim_check.hpp"
 
 namespace bladefit {
 namespace {
@@ -84,9 +85,9 @@ bool bounds_valid(const ImageBounds& b) {
 
 /// The sides on the patch's edges are marked, joints are at marked sides, and nothing else is set.
 bool ends_valid(const ImageSpan& s, const ImagePatch& p) {
-  const std::uint32_t edges = (s.iu == 0 ? kEndsAtLowU : 0U) | (s.iu + 1 == p.spans_u ? kEndsAtHighU : 0U) |
+  const std::uint32_t sides = (s.iu == 0 ? kEndsAtLowU : 0U) | (s.iu + 1 == p.spans_u ? kEndsAtHighU : 0U) |
                               (s.iv == 0 ? kEndsAtLowV : 0U) | (s.iv + 1 == p.spans_v ? kEndsAtHighV : 0U);
-  if ((s.ends & edges) != edges || s.ends >= 16U) return false;
+  if ((s.ends & sides) != (p.slab_count == 0 ? sides : 0U) || s.ends >= 16U) return false;
   for (std::uint32_t side = 0; side < 4; ++side) {
     if (s.joints[side] != 0 && (s.ends & (1U << side)) == 0) return false;
     for (std::uint32_t part = 0; part < kJointParts; ++part) {
@@ -146,19 +147,20 @@ bool rectangle_valid(const ImageLeaf& leaf) {
 }
 
 /// The leaves of a span follow each other and cover its area: they are cut by halves, so that areas add up exactly.
+/// With trim loops some are left out.
 bool leaves_valid(const DesignImage& image) {
-  std::uint32_t span = 0;
-  double area = 0.0;
-  for (std::size_t i = 0; i < image.leaves().size(); ++i) {
-    const ImageLeaf& leaf = image.leaves()[i];
-    if (leaf.span != span || !rectangle_valid(leaf) || !bounds_valid(leaf.bounds)) return false;
-    area += (leaf.s_max - leaf.s_min) * (leaf.t_max - leaf.t_min);
-    if (area != 1.0) continue;
-    ++span;
-    area = 0.0;
-    if (span == image.spans().size()) return i + 1 == image.leaves().size();
+  std::size_t i = 0;
+  for (std::uint32_t span = 0; span < image.spans().size(); ++span) {
+    double area = 0.0;
+    for (; i < image.leaves().size() && image.leaves()[i].span == span; ++i) {
+      const ImageLeaf& leaf = image.leaves()[i];
+      if (!rectangle_valid(leaf) || !bounds_valid(leaf.bounds)) return false;
+      area += (leaf.s_max - leaf.s_min) * (leaf.t_max - leaf.t_min);
+    }
+    const bool trimmed = image.patches()[image.spans()[span].patch].slab_count > 0;
+    if (trimmed ? area > 1.0 : area != 1.0) return false;
   }
-  return false;
+  return i == image.leaves().size();
 }
 
 Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
@@ -172,7 +174,11 @@ Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
                       array_fits<ImageNode>(h.nodes_offset, h.node_count, h.total_size) &&
                       array_fits<double>(h.breaks_offset, h.break_count, h.total_size) &&
                       array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size) &&
-                      array_fits<double>(h.taylor_offset, h.coefficient_count, h.total_size);
+                      array_fits<double>(h.taylor_offset, h.coefficient_count, h.total_size) &&
+                      array_fits<ImageTrim>(h.trims_offset, h.trim_count, h.total_size) &&
+                      array_fits<ImageTrimRun>(h.runs_offset, h.run_count, h.total_size) &&
+                      array_fits<ImageSlab>(h.slabs_offset, h.slab_count, h.total_size) &&
+                      array_fits<std::uint32_t>(h.slab_trims_offset, h.slab_trim_count, h.total_size);
   const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.leaf_count >= 1 && h.node_count >= 1;
   const bool fields = h.spare == 0 && h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && box_valid(h);
   return arrays && counts && fields ? Status::ok : Status::bad_content;
@@ -206,7 +212,12 @@ Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {
   candidate.breaks_ = view<double>(bytes, h.breaks_offset, h.break_count);
   candidate.coefficients_ = view<double>(bytes, h.coefficients_offset, h.coefficient_count);
   candidate.taylor_ = view<double>(bytes, h.taylor_offset, h.coefficient_count);
-  if (!patches_valid(candidate) || !spans_valid(candidate) || !leaves_valid(candidate) || !tree_valid(candidate))
+  candidate.trims_ = view<ImageTrim>(bytes, h.trims_offset, h.trim_count);
+  candidate.runs_ = view<ImageTrimRun>(bytes, h.runs_offset, h.run_count);
+  candidate.slabs_ = view<ImageSlab>(bytes, h.slabs_offset, h.slab_count);
+  candidate.slab_trims_ = view<std::uint32_t>(bytes, h.slab_trims_offset, h.slab_trim_count);
+  if (!patches_valid(candidate) || !spans_valid(candidate) || !leaves_valid(candidate) || !trims_valid(candidate) ||
+      !tree_valid(candidate))
     return Status::bad_content;
   image = candidate;
   return Status::ok;

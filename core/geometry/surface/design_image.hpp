@@ -15,7 +15,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 7;
+inline constexpr std::uint32_t kImageVersion = 8;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -29,10 +29,10 @@ struct ImageHeader {
   std::uint32_t design_unit;  ///< DesignUnit of the file it was compiled from; the numbers here are mm all the same
   std::int32_t outward;       ///< +1 or -1: outward normal = outward * (Su x Sv), of reversed patches minus that
   std::uint32_t patch_count, span_count, node_count, break_count;
-  std::uint32_t leaf_count, spare;  ///< spare: 0
+  std::uint32_t leaf_count, trim_count, run_count, slab_count, slab_trim_count, spare;  ///< spare: 0
   std::uint64_t coefficient_count;  ///< doubles, of the control points and again of the Taylor forms
   std::uint64_t patches_offset, spans_offset, leaves_offset, nodes_offset, breaks_offset, coefficients_offset,
-      taylor_offset;
+      taylor_offset, trims_offset, runs_offset, slabs_offset, slab_trims_offset;
   double box_min[3], box_max[3];  ///< of the control points [mm]
 };
 
@@ -44,10 +44,12 @@ struct ImagePatch {
   std::uint32_t first_break_u, first_break_v;  ///< spans_u + 1 (spans_v + 1) rising parameters, the first 0, the last 1
   std::uint32_t rational;                      ///< 0: every weight is 1
   std::uint32_t reversed;                      ///< 1: the outward side is the other one than the header says
+  std::uint32_t first_slab, slab_count;        ///< of its trim loops; no slabs: the face is all of the patch
   std::uint32_t spare;                         ///< 0
 };
 
-/// Sides of a span beyond which the surface ends or is not smooth: bits of ImageSpan::ends.
+/// Sides of a span beyond which the surface ends or is not smooth: bits of ImageSpan::ends. The edges of a patch with
+/// trim loops are none: there the face ends at its loops.
 inline constexpr std::uint32_t kEndsAtLowU = 1, kEndsAtHighU = 2, kEndsAtLowV = 4, kEndsAtHighV = 8;
 
 /// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
@@ -81,7 +83,8 @@ struct ImageBounds {
   double self_high[7];
 };
 
-/// A rectangle of a span, so small that its bounds are tight. The leaves of a span tile it.
+/// A rectangle of a span, so small that its bounds are tight. The leaves of a span tile it; where the patch has trim
+/// loops, those outside of the face are left out.
 struct ImageLeaf {
   std::uint32_t span;
   std::uint32_t node;                 ///< index of the node that it is a child of
@@ -89,7 +92,34 @@ struct ImageLeaf {
   ImageBounds bounds;
 };
 
-/// ImageNode::child: this bit and the index of a leaf, or no child, or the index of a node.
+/// A piece of a trim loop, straight in the parameters of its patch, from its own start to that of the next one. It lies
+/// in one span. The face is on its left, where u points to the right and v upwards. Loops are closed, those along the
+/// sides of the patch too.
+struct ImageTrim {
+  double u, v;                ///< of its start
+  double start[3];            ///< the surface there [mm]
+  double slope, bend, third;  ///< no first, second, third derivative along it is longer, its parameter being 0..1 [mm]
+  std::uint32_t span;
+  std::uint32_t previous, next;  ///< pieces of the same loop
+  std::uint16_t joint;           ///< a Joint: what lies beyond it
+  std::uint16_t corner;          ///< 1: the loop has a corner at its start
+};
+
+/// Pieces of trim loops that follow each other: a child of a node, numbered after the leaves. Runs tile the trims.
+struct ImageTrimRun {
+  std::uint32_t first, count;
+  std::uint32_t node;   ///< index of the node that it is a child of
+  std::uint32_t spare;  ///< 0
+};
+inline constexpr std::uint32_t kMostTrimsInRun = 8;
+
+/// A strip of a patch between two values of v; the slabs of a patch are equally wide. Its trims, in rising order, are
+/// slab_trims[first] and so on: all of the patch that reach into it.
+struct ImageSlab {
+  std::uint32_t first, count;
+};
+
+/// ImageNode::child: this bit and the index of a leaf or run, or no child, or the index of a node.
 inline constexpr std::uint32_t kLeafChild = 0x80000000U, kNoChild = 0xFFFFFFFFU;
 
 /// Node of the bounding tree, in depth-first order: up to four children with their boxes, about the middle of the
@@ -100,8 +130,9 @@ struct ImageNode {
   std::uint32_t child[4];
 };
 
-static_assert(sizeof(ImageHeader) == 168 && sizeof(ImagePatch) == 40 && sizeof(ImageSpan) == 88 &&
-              sizeof(ImageBounds) == 616 && sizeof(ImageLeaf) == 656 && sizeof(ImageNode) == 112);
+static_assert(sizeof(ImageHeader) == 216 && sizeof(ImagePatch) == 48 && sizeof(ImageSpan) == 88 &&
+              sizeof(ImageBounds) == 616 && sizeof(ImageLeaf) == 656 && sizeof(ImageNode) == 112 &&
+              sizeof(ImageTrim) == 80 && sizeof(ImageTrimRun) == 16 && sizeof(ImageSlab) == 8);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.
 [[nodiscard]] std::uint32_t image_crc(std::span<const std::byte> image);
@@ -122,6 +153,10 @@ class DesignImage {
   [[nodiscard]] std::span<const double> breaks() const { return breaks_; }
   [[nodiscard]] std::span<const double> coefficients() const { return coefficients_; }
   [[nodiscard]] std::span<const double> taylor() const { return taylor_; }
+  [[nodiscard]] std::span<const ImageTrim> trims() const { return trims_; }
+  [[nodiscard]] std::span<const ImageTrimRun> runs() const { return runs_; }
+  [[nodiscard]] std::span<const ImageSlab> slabs() const { return slabs_; }
+  [[nodiscard]] std::span<const std::uint32_t> slab_trims() const { return slab_trims_; }
 
  private:
   const ImageHeader* header_ = nullptr;
@@ -131,6 +166,10 @@ class DesignImage {
   std::span<const ImageNode> nodes_;
   std::span<const double> breaks_;
   std::span<const double> coefficients_, taylor_;
+  std::span<const ImageTrim> trims_;
+  std::span<const ImageTrimRun> runs_;
+  std::span<const ImageSlab> slabs_;
+  std::span<const std::uint32_t> slab_trims_;
 };
 
 }  // namespace bladefit

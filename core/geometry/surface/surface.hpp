@@ -74,6 +74,9 @@ class Surface {
   /// The place at (u, v) of a patch. Cost: linear in the number of spans of a row and a column.
   [[nodiscard]] SurfacePlace place_at(std::uint32_t patch, double u, double v) const;
 
+  /// Some patch has trim loops.
+  [[nodiscard]] bool has_trims() const { return !image_.trims().empty(); }
+
   /// The outward side of a span's patch: +1 that of Su x Sv, -1 the other one.
   [[nodiscard]] double side_of(std::uint32_t span_index) const {
     const auto side = static_cast<double>(image_.header().outward);

@@ -27,7 +27,7 @@ class TreeCheck {
       if (visit.node != k || visit.depth >= kMaxTreeDepth) return false;
       if (!children_valid(visit)) return false;
     }
-    return size_ == 0 && leaves_ == image_.leaves().size();
+    return size_ == 0 && leaves_ == image_.leaves().size() && runs_ == image_.runs().size();
   }
 
  private:
@@ -41,8 +41,9 @@ class TreeCheck {
       if (child == kNoChild) continue;
       if (std::count(node.child, node.child + 4, child) > 1) return false;
       if ((child & kLeafChild) != 0) {
-        if (!leaf_valid(visit.node, place)) return false;
-        ++leaves_;
+        const bool leaf = (child & ~kLeafChild) < image_.leaves().size();
+        if (leaf ? !leaf_valid(visit.node, place) : !run_valid(visit.node, place)) return false;
+        ++(leaf ? leaves_ : runs_);
       } else {
         pending_[size_++] = {child, visit.node, place, visit.depth + 1};
       }
@@ -75,9 +76,7 @@ class TreeCheck {
   /// The control points of the leaf's rectangle are inside its box, which the search relies on.
   [[nodiscard]] bool leaf_valid(std::uint32_t index, std::uint32_t place) const {
     const ImageNode& node = image_.nodes()[index];
-    const std::uint32_t number = node.child[place] & ~kLeafChild;
-    if (number >= image_.leaves().size()) return false;
-    const ImageLeaf& leaf = image_.leaves()[number];
+    const ImageLeaf& leaf = image_.leaves()[node.child[place] & ~kLeafChild];
     const ImageSpan& s = image_.spans()[leaf.span];
     const ImagePatch& p = image_.patches()[s.patch];
     BezierNet net;
@@ -94,10 +93,29 @@ class TreeCheck {
     return leaf.node == index;
   }
 
+  /// The ends of its pieces are inside its box. That what lies between them is too is the compiler's promise.
+  [[nodiscard]] bool run_valid(std::uint32_t index, std::uint32_t place) const {
+    const ImageNode& node = image_.nodes()[index];
+    const std::size_t number = (node.child[place] & ~kLeafChild) - image_.leaves().size();
+    if (number >= image_.runs().size()) return false;
+    const ImageTrimRun& run = image_.runs()[number];
+    for (std::uint32_t k = run.first; k < run.first + run.count; ++k) {
+      const ImageTrim& trim = image_.trims()[k];
+      for (const ImageTrim* end : {&trim, &image_.trims()[trim.next]}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const double x = end->start[axis] - middle_[axis];
+          if (!(x >= static_cast<double>(node.low[axis][place]) && x <= static_cast<double>(node.high[axis][place])))
+            return false;
+        }
+      }
+    }
+    return run.node == index;
+  }
+
   const DesignImage& image_;
   Vec3 middle_;
   std::array<Visit, 3 * kMaxTreeDepth + 4> pending_;
-  std::size_t size_ = 0, leaves_ = 0;
+  std::size_t size_ = 0, leaves_ = 0, runs_ = 0;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "tools/design/image/joints.hpp"
 #include "tools/design/image/span_bounding.hpp"
 #include "tools/design/image/tree_builder.hpp"
+#include "tools/design/image/trim_pieces.hpp"
 #include "tools/design/nurbs/bezier_extraction.hpp"
 #include "tools/files/tool_error.hpp"
 
@@ -25,6 +26,7 @@ struct ImageParts {
   std::vector<double> coefficients, taylor;
   std::vector<ImageLeaf> leaves;
   std::vector<Box> boxes;  ///< one a leaf
+  TrimParts trims;
 };
 
 /// A leaf is to tell of points this near to the surface [half diagonals of the control points' box].
@@ -45,15 +47,37 @@ std::uint32_t append_breaks(const std::vector<double>& breaks, ImageParts& parts
   return first;
 }
 
-void append_leaves(const SpanBounding& bounding, ImageParts& parts) {
-  for (ImageLeaf leaf : bounding.leaves) {
+void append_leaves(const SpanBounding& bounding, const TrimmedSpan& face, ImageParts& parts) {
+  for (std::size_t k = 0; k < bounding.leaves.size(); ++k) {
+    ImageLeaf leaf = bounding.leaves[k];
+    if (!face.reaches({leaf.s_min, leaf.s_max, leaf.t_min, leaf.t_max})) continue;
     leaf.span = static_cast<std::uint32_t>(parts.spans.size());
     parts.leaves.push_back(leaf);
+    parts.boxes.push_back(bounding.boxes[k]);
   }
-  parts.boxes.insert(parts.boxes.end(), bounding.boxes.begin(), bounding.boxes.end());
 }
 
-void append_spans(const BezierPatch& bezier, int outward, double near, ImageParts& parts) {
+/// Trim loops lie in leaves, whose boxes may be the tighter.
+Box common_to(const Box& a, const Box& b) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = std::max(a.min[axis], b.min[axis]);
+    box.max[axis] = std::min(a.max[axis], b.max[axis]);
+  }
+  return box;
+}
+
+/// The edges of a patch with trim loops are no ends.
+std::uint32_t creases_only(std::uint32_t ends, const ImageSpan& span, const BezierPatch& bezier) {
+  if (span.iu == 0) ends &= ~kEndsAtLowU;
+  if (span.iu + 1 == bezier.spans_u()) ends &= ~kEndsAtHighU;
+  if (span.iv == 0) ends &= ~kEndsAtLowV;
+  if (span.iv + 1 == bezier.spans_v()) ends &= ~kEndsAtHighV;
+  return ends;
+}
+
+void append_spans(const BezierPatch& bezier, const std::vector<TrimLoop>& loops, int outward, double near,
+                  ImageParts& parts) {
   const auto patch = static_cast<std::uint32_t>(parts.patches.size());
   const std::size_t first = parts.coefficients.size();
   std::size_t k = 0;
@@ -66,7 +90,8 @@ void append_spans(const BezierPatch& bezier, int outward, double near, ImagePart
     std::copy(bounding.cone.axis.begin(), bounding.cone.axis.end(), span.cone_axis);
     span.cone_cosine = bounding.cone.cosine;
     span.ends = span_ends(bezier, span.iu, span.iv);
-    append_leaves(bounding, parts);
+    if (!loops.empty()) span.ends = creases_only(span.ends, span, bezier);
+    append_leaves(bounding, TrimmedSpan(loops, bezier, span.iu, span.iv), parts);
     parts.spans.push_back(span);
     ++k;
   }
@@ -86,7 +111,11 @@ void append_patch(const NurbsSurface& surface, int outward, double near, ImagePa
   patch.first_break_v = append_breaks(bezier.breaks_v, parts);
   patch.rational = bezier.rational ? 1 : 0;
   patch.reversed = surface.reversed ? 1 : 0;
-  append_spans(bezier, surface.reversed ? -outward : outward, near, parts);
+  patch.first_slab = static_cast<std::uint32_t>(parts.trims.slabs.size());
+  const std::vector<TrimLoop> loops = pieces_of(surface.trims, bezier);
+  append_trims(loops, bezier, patch.first_span, parts.trims);
+  patch.slab_count = static_cast<std::uint32_t>(parts.trims.slabs.size()) - patch.first_slab;
+  append_spans(bezier, loops, surface.reversed ? -outward : outward, near, parts);
   parts.patches.push_back(patch);
 }
 
@@ -102,6 +131,10 @@ ImageHeader make_header(const ImageParts& parts, DesignUnit unit, int outward) {
   header.node_count = static_cast<std::uint32_t>(parts.nodes.size());
   header.break_count = static_cast<std::uint32_t>(parts.breaks.size());
   header.coefficient_count = parts.coefficients.size();
+  header.trim_count = static_cast<std::uint32_t>(parts.trims.pieces.size());
+  header.run_count = static_cast<std::uint32_t>(parts.trims.runs.size());
+  header.slab_count = static_cast<std::uint32_t>(parts.trims.slabs.size());
+  header.slab_trim_count = static_cast<std::uint32_t>(parts.trims.slab_trims.size());
   header.patches_offset = sizeof(ImageHeader);
   header.spans_offset = header.patches_offset + parts.patches.size() * sizeof(ImagePatch);
   header.leaves_offset = header.spans_offset + parts.spans.size() * sizeof(ImageSpan);
@@ -109,7 +142,11 @@ ImageHeader make_header(const ImageParts& parts, DesignUnit unit, int outward) {
   header.breaks_offset = header.nodes_offset + parts.nodes.size() * sizeof(ImageNode);
   header.coefficients_offset = header.breaks_offset + parts.breaks.size() * sizeof(double);
   header.taylor_offset = header.coefficients_offset + parts.coefficients.size() * sizeof(double);
-  header.total_size = header.taylor_offset + parts.taylor.size() * sizeof(double);
+  header.trims_offset = header.taylor_offset + parts.taylor.size() * sizeof(double);
+  header.runs_offset = header.trims_offset + parts.trims.pieces.size() * sizeof(ImageTrim);
+  header.slabs_offset = header.runs_offset + parts.trims.runs.size() * sizeof(ImageTrimRun);
+  header.slab_trims_offset = header.slabs_offset + parts.trims.slabs.size() * sizeof(ImageSlab);
+  header.total_size = header.slab_trims_offset + (parts.trims.slab_trims.size() + 1) / 2 * 8;
   const Box whole = box_around(parts.boxes);
   std::copy_n(whole.min, 3, header.box_min);
   std::copy_n(whole.max, 3, header.box_max);
@@ -118,7 +155,7 @@ ImageHeader make_header(const ImageParts& parts, DesignUnit unit, int outward) {
 
 template <class Element>
 void copy_array(const std::vector<Element>& array, std::uint64_t offset, std::vector<std::byte>& image) {
-  std::memcpy(image.data() + offset, array.data(), array.size() * sizeof(Element));
+  if (!array.empty()) std::memcpy(image.data() + offset, array.data(), array.size() * sizeof(Element));
 }
 
 void seal(std::vector<std::byte>& image) {
@@ -132,13 +169,17 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   ImageParts parts;
   const double near = kNear * half_diagonal(surfaces);
   for (const NurbsSurface& surface : surfaces) append_patch(surface, outward, near, parts);
-  if (parts.leaves.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
+  if (parts.leaves.size() + parts.trims.runs.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
     throw ToolError("the design has too many knot spans; export the blade with fewer knots");
   }
+  const Box leaves = box_around(parts.boxes);
+  for (const Box& run : parts.trims.boxes) parts.boxes.push_back(common_to(run, leaves));
   parts.nodes = build_bounding_tree(parts.boxes);
   for (std::uint32_t k = 0; k < parts.nodes.size(); ++k) {
     for (const std::uint32_t child : parts.nodes[k].child) {
-      if (child != kNoChild && (child & kLeafChild) != 0) parts.leaves[child & ~kLeafChild].node = k;
+      if (child == kNoChild || (child & kLeafChild) == 0) continue;
+      const std::size_t index = child & ~kLeafChild;
+      (index < parts.leaves.size() ? parts.leaves[index].node : parts.trims.runs[index - parts.leaves.size()].node) = k;
     }
   }
   const ImageHeader header = make_header(parts, unit, outward);
@@ -151,6 +192,10 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   copy_array(parts.breaks, header.breaks_offset, image);
   copy_array(parts.coefficients, header.coefficients_offset, image);
   copy_array(parts.taylor, header.taylor_offset, image);
+  copy_array(parts.trims.pieces, header.trims_offset, image);
+  copy_array(parts.trims.runs, header.runs_offset, image);
+  copy_array(parts.trims.slabs, header.slabs_offset, image);
+  copy_array(parts.trims.slab_trims, header.slab_trims_offset, image);
   seal(image);
   mark_joints(image);
   seal(image);

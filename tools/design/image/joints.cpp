@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/geometry/surface/trim.hpp"
 #include "tools/design/image/meeting_surface.hpp"
 
 namespace bladefit {
@@ -103,7 +104,33 @@ class JointMarker {
     return out;
   }
 
+  /// What lies beyond a piece of a trim loop.
+  [[nodiscard]] Joint beyond(std::uint32_t trim) const {
+    std::optional<Joint> joint;
+    for (const double place : kPlaces) {
+      const Joint one = joint_on(line_of(surface_.image(), trim), place);
+      joint = joint ? both(*joint, one) : one;
+    }
+    return *joint;
+  }
+
  private:
+  [[nodiscard]] Joint joint_on(const TrimLine& line, double share) const {
+    const SpanDomain d = surface_.domain(line.span);
+    SurfacePlace place = line.at(share);
+    place.u = std::clamp(place.u, d.u_min, d.u_max);
+    place.v = std::clamp(place.v, d.v_min, d.v_max);
+    const SurfacePoint at = surface_.evaluate(place);
+    const Vec3 onward = out_of_face(at, line.du, line.dv);
+    if (onward.isZero()) return Joint::none;
+    return joint_or_edge({place, at.s, surface_.normal(place, at), onward});
+  }
+
+  [[nodiscard]] Joint joint_or_edge(const SidePlace& from) const {
+    const Joint joint = joint_beyond(meeting_, from);
+    return joint == Joint::none ? outer_edge(meeting_, from) : joint;
+  }
+
   /// The span of the same patch on the other side of a crease; nothing at the edge of the patch.
   [[nodiscard]] std::optional<std::uint32_t> span_beyond(std::uint32_t span, const Side& side) const {
     const ImageSpan& s = surface_.span(span);
@@ -122,10 +149,7 @@ class JointMarker {
                                       : SurfacePlace{span, u, side.high ? d.v_max : d.v_min};
     const std::optional<SidePlace> from = side_place(surface_, place, side);
     if (!from) return Joint::none;
-    if (!next) {
-      const Joint joint = joint_beyond(meeting_, *from);
-      return joint == Joint::none ? outer_edge(meeting_, *from) : joint;
-    }
+    if (!next) return joint_or_edge(*from);
     place.span = *next;
     return bend(*from, surface_.normal(place, surface_.evaluate(place)));
   }
@@ -148,7 +172,11 @@ void mark_joints(std::vector<std::byte>& image) {
       if ((spans[k].ends & (1U << side.index)) != 0) spans[k].joints[side.index] = marker.parts(k, side);
     }
   }
+  std::vector<ImageTrim> trims(design.trims().begin(), design.trims().end());
+  for (std::uint32_t k = 0; k < trims.size(); ++k) trims[k].joint = static_cast<std::uint16_t>(marker.beyond(k));
+  const std::uint64_t trims_at = design.header().trims_offset;
   std::memcpy(image.data() + design.header().spans_offset, spans.data(), spans.size() * sizeof(ImageSpan));
+  if (!trims.empty()) std::memcpy(image.data() + trims_at, trims.data(), trims.size() * sizeof(ImageTrim));
 }
 
 }  // namespace bladefit

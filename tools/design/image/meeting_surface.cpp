@@ -1,6 +1,7 @@
 #include "tools/design/image/meeting_surface.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "core/geometry/nearest/bounding_tree.hpp"
 #include "core/geometry/nearest/global_projection.hpp"
 #include "core/geometry/nearest/leaf_bounds.hpp"
+#include "core/geometry/surface/trim.hpp"
 
 namespace bladefit {
 namespace {
@@ -18,6 +20,32 @@ constexpr double kNeighbourhood = 4.0;
 constexpr double kWay = 3.0, kFarthest = 0.75;
 /// A blunt edge is no thicker than this [half diagonals].
 constexpr double kThickest = 0.05;
+
+/// A place on a trim loop counts as so much nearer than one in the middle of a face [gaps]: loops of faces that meet
+/// are a tolerance apart, or overlap by it.
+constexpr double kLoopFirst = 0.25;
+/// An edge that faces another one across the material lies this deep at least [way].
+constexpr double kLeastDepth = 0.5;
+
+/// Pieces are nearly straight: some steps along the tangent are enough.
+TrimPlace nearest_on(const Surface& surface, std::uint32_t trim, const Vec3& point) {
+  const TrimLine line = line_of(surface.image(), trim);
+  const SpanDomain d = surface.domain(line.span);
+  TrimPlace found;
+  double t = 0.5;
+  for (int k = 0; k < 6; ++k) {
+    const SurfacePlace place = line.at(t);
+    found.place = {line.span, std::clamp(place.u, d.u_min, d.u_max), std::clamp(place.v, d.v_min, d.v_max)};
+    found.at = surface.evaluate(found.place);
+    found.offset = point - found.at.s;
+    const Vec3 way = tangent_along(found.at, line.du, line.dv);
+    const double square = way.squaredNorm();
+    if (!(square > 0.0)) break;
+    t = std::clamp(t + found.offset.dot(way) / square, 0.0, 1.0);
+  }
+  found.inward = -out_of_face(found.at, line.du, line.dv);
+  return found;
+}
 
 /// Parameters of a leaf within its patch.
 ParameterLimits limits_of(const Surface& surface, const ImageLeaf& leaf) {
@@ -49,8 +77,9 @@ std::optional<Vec3> into_patch(const Projection& p) {
 
 MeetingSurface::MeetingSurface(const Surface& surface) : surface_(surface), gap_(joint_gap(surface.half_diagonal())) {}
 
-template <class Use>
-void MeetingSurface::each_leaf(const Vec3& point, double reach, Use use) const {
+template <class UseLeaf, class UseRun>
+void MeetingSurface::each_near(const Vec3& point, double reach, UseLeaf use_leaf, UseRun use_run) const {
+  const auto leaves = static_cast<std::uint32_t>(surface_.image().leaves().size());
   const BoxDistances boxes(point - surface_.middle());
   const float threshold = boxes.threshold(reach);
   std::vector<std::uint32_t> pending = {0};
@@ -63,8 +92,10 @@ void MeetingSurface::each_leaf(const Vec3& point, double reach, Use use) const {
       const std::uint32_t child = node.child[k];
       if ((child & kLeafChild) == 0) {
         pending.push_back(child);
+      } else if (const std::uint32_t index = child & ~kLeafChild; index < leaves) {
+        use_leaf(index);
       } else {
-        use(child & ~kLeafChild);
+        use_run(surface_.image().runs()[index - leaves]);
       }
     }
   }
@@ -72,7 +103,12 @@ void MeetingSurface::each_leaf(const Vec3& point, double reach, Use use) const {
 
 std::optional<MeetingPlace> MeetingSurface::find(const SurfacePlace& own, const Vec3& point) const {
   std::optional<MeetingPlace> best;
-  each_leaf(point, gap_, [&](std::uint32_t leaf) { look_in(leaf, own, point, best); });
+  each_near(
+      point, gap_, [&](std::uint32_t leaf) { look_in(leaf, own, point, best); },
+      [&](const ImageTrimRun& run) {
+        for (std::uint32_t k = run.first; k < run.first + run.count; ++k)
+          look_at(nearest_on(surface_, k, point), own, point, best);
+      });
   return best;
 }
 
@@ -81,27 +117,36 @@ std::optional<Vec3> MeetingSurface::facing_edge(const SurfacePlace& own, const V
   double reach = kThickest * surface_.half_diagonal();
   std::optional<Vec3> best;
   const std::uint32_t patch = surface_.span(own.span).patch;
-  const auto look_at = [&](std::uint32_t span, const ParameterLimits& line) {
-    const bool own_side = surface_.span(span).patch == patch && ((line.u_min == line.u_max && line.u_min == own.u) ||
-                                                                 (line.v_min == line.v_max && line.v_min == own.v));
-    if (own_side) return;
-    const SurfacePlace start{span, 0.5 * (line.u_min + line.u_max), 0.5 * (line.v_min + line.v_max)};
-    const Projection found = project_local(surface_, point, start, line);
-    const Vec3 way = -found.offset;
-    const std::optional<Vec3> inward = into_patch(found);
+  const auto take = [&](const Vec3& way, const std::optional<Vec3>& inward) {
     const bool faces = way.dot(normal) < 0.0 && inward && inward->dot(onward) < 0.0;
     if (!faces || way.norm() >= reach) return;
     reach = way.norm();
     best = way;
   };
-  each_leaf(point, reach, [&](std::uint32_t leaf) {
+  const auto look_at_side = [&](std::uint32_t span, const ParameterLimits& line) {
+    const bool own_side = surface_.span(span).patch == patch && ((line.u_min == line.u_max && line.u_min == own.u) ||
+                                                                 (line.v_min == line.v_max && line.v_min == own.v));
+    if (own_side) return;
+    const SurfacePlace start{span, 0.5 * (line.u_min + line.u_max), 0.5 * (line.v_min + line.v_max)};
+    const Projection found = project_local(surface_, point, start, line);
+    take(-found.offset, into_patch(found));
+  };
+  const auto look_in_leaf = [&](std::uint32_t leaf) {
     const ImageLeaf& l = surface_.image().leaves()[leaf];
+    if (surface_.patch_of(l.span).slab_count > 0) return;
     const ParameterLimits limits = limits_of(surface_, l);
     for (const double u : {0.0, 1.0}) {
-      if (limits.u_min == u || limits.u_max == u) look_at(l.span, {u, u, limits.v_min, limits.v_max});
+      if (limits.u_min == u || limits.u_max == u) look_at_side(l.span, {u, u, limits.v_min, limits.v_max});
     }
     for (const double v : {0.0, 1.0}) {
-      if (limits.v_min == v || limits.v_max == v) look_at(l.span, {limits.u_min, limits.u_max, v, v});
+      if (limits.v_min == v || limits.v_max == v) look_at_side(l.span, {limits.u_min, limits.u_max, v, v});
+    }
+  };
+  each_near(point, reach, look_in_leaf, [&](const ImageTrimRun& run) {
+    for (std::uint32_t k = run.first; k < run.first + run.count; ++k) {
+      const TrimPlace found = nearest_on(surface_, k, point);
+      const Vec3 way = -found.offset;
+      if (way.dot(normal) < -kLeastDepth * way.norm()) take(way, found.inward);
     }
   });
   return best;
@@ -115,10 +160,19 @@ void MeetingSurface::look_in(std::uint32_t leaf, const SurfacePlace& own, const 
   const SurfacePlace middle{l.span, 0.5 * (limits.u_min + limits.u_max), 0.5 * (limits.v_min + limits.v_max)};
   const Projection found = project_local(surface_, point, middle, limits);
   const double distance = found.offset.norm();
-  if (distance > gap_ || (best && distance >= best->distance)) return;
+  if (found.outside || distance > gap_ || (best && distance >= best->rank)) return;
   const bool same_patch = surface_.span(own.span).patch == surface_.span(found.place.span).patch;
   if (same_patch && connected(own, found.place, point)) return;
-  best = MeetingPlace{distance, surface_.normal(found.place, found.at), into_patch(found)};
+  best = MeetingPlace{distance, surface_.normal(found.place, found.at), into_patch(found), distance};
+}
+
+void MeetingSurface::look_at(const TrimPlace& found, const SurfacePlace& own, const Vec3& point,
+                             std::optional<MeetingPlace>& best) const {
+  const double distance = found.offset.norm(), rank = distance - kLoopFirst * gap_;
+  if (distance > gap_ || (best && rank >= best->rank) || found.inward.isZero()) return;
+  const bool same_patch = surface_.span(own.span).patch == surface_.span(found.place.span).patch;
+  if (same_patch && connected(own, found.place, point)) return;
+  best = MeetingPlace{distance, surface_.normal(found.place, found.at), found.inward, rank};
 }
 
 bool MeetingSurface::connected(const SurfacePlace& a, const SurfacePlace& b, const Vec3& point) const {
@@ -134,7 +188,8 @@ bool MeetingSurface::reaches(const Vec3& point, const Vec3& direction) const {
   const double way = kWay * gap_;
   const ProjectionQuery query{point + way * direction, Vec3::Zero(), 0.0};
   const Projection found = project_global(surface_, query, nullptr).nearest;
-  return found.converged && !found.fixed_u && !found.fixed_v && found.offset.norm() < kFarthest * way;
+  return found.converged && !found.fixed_u && !found.fixed_v && !found.on_trim() &&
+         found.offset.norm() < kFarthest * way;
 }
 
 }  // namespace bladefit

@@ -10,6 +10,15 @@ struct MeetingPlace {
   double distance = 0;
   Vec3 normal = Vec3::Zero();  ///< outward, of the other surface
   std::optional<Vec3> inward;  ///< unit vector into the other surface; nothing where the edge meets it in its middle
+  double rank = 0;             ///< of several the one of the least counts [mm]
+};
+
+/// The nearest place of a piece of a trim loop.
+struct TrimPlace {
+  SurfacePlace place;
+  SurfacePoint at;
+  Vec3 offset;  ///< from it to the point [mm]
+  Vec3 inward;  ///< unit vector into the face
 };
 
 /// Finds where a design meets itself.
@@ -31,10 +40,13 @@ class MeetingSurface {
   [[nodiscard]] bool reaches(const Vec3& point, const Vec3& direction) const;
 
  private:
-  /// Calls `use` with the index of every leaf whose box is nearer to the point than `reach`.
-  template <class Use>
-  void each_leaf(const Vec3& point, double reach, Use use) const;
+  /// Calls `use_leaf` or `use_run` with the index of every leaf and every run of trims whose box is nearer to the point
+  /// than `reach`.
+  template <class UseLeaf, class UseRun>
+  void each_near(const Vec3& point, double reach, UseLeaf use_leaf, UseRun use_run) const;
   void look_in(std::uint32_t leaf, const SurfacePlace& own, const Vec3& point, std::optional<MeetingPlace>& best) const;
+  void look_at(const TrimPlace& found, const SurfacePlace& own, const Vec3& point,
+               std::optional<MeetingPlace>& best) const;
   [[nodiscard]] bool connected(const SurfacePlace& a, const SurfacePlace& b, const Vec3& point) const;
 
   const Surface& surface_;

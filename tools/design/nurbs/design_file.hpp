@@ -10,14 +10,16 @@ namespace bladefit {
 
 /// What a user can tell one face of a design from the others by.
 struct DesignFace {
-  std::string entity;    ///< "face #17", "entity 144 at D5"
-  std::string name;      ///< as the file has it; may be empty
-  std::string layer;     ///< may be empty
-  std::string kind;      ///< "B-spline", "plane", ...
-  double area = 0;       ///< inside of its bounds [mm^2]
-  double share = 1;      ///< of the box of its bounds in u and v that is inside of them
-  bool told = false;     ///< the file says which side it looks to: it belongs to a shell
-  bool in_body = false;  ///< the shell is closed: that side is away from the material
+  std::string entity;       ///< "face #17", "entity 144 at D5"
+  std::string name;         ///< as the file has it; may be empty
+  std::string layer;        ///< may be empty
+  std::string kind;         ///< "B-spline", "plane", ...
+  double area = 0;          ///< inside of its bounds [mm^2]
+  double share = 1;         ///< of the box of its bounds in u and v that is inside of them
+  double trims_off = 0;     ///< how far the trim loops are from the curves of the file [mm]
+  std::string trims_fault;  ///< why a trimmed face is used up to the box of its bounds; empty = it is not
+  bool told = false;        ///< the file says which side it looks to: it belongs to a shell
+  bool in_body = false;     ///< the shell is closed: that side is away from the material
 };
 
 /// What a CAD file holds, checked and turned to mm.

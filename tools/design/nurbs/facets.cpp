@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include "tools/design/nurbs/trim_loops.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -62,7 +65,8 @@ FacetedSurfaces faceted(const std::vector<NurbsSurface>& surfaces) {
     const BezierPatch patch = extract_bezier(surface);
     append_facets(
         facet_parameters(patch.breaks_u, least), facet_parameters(patch.breaks_v, least),
-        [&patch](double u, double v) { return point_of(patch, u, v); }, result.facets);
+        [&patch](double u, double v) { return point_of(patch, u, v); },
+        [&surface](double u, double v) { return inside_loops(surface.trims, u, v); }, result.facets);
     result.first.push_back(result.facets.size());
   }
   return result;

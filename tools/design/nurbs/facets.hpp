@@ -30,20 +30,27 @@ struct FacetedSurfaces {
 /// knots are among them.
 [[nodiscard]] FacetedSurfaces faceted(const std::vector<NurbsSurface>& surfaces);
 
-/// The facets between points at every pair of parameters; at(u, v) is a point.
-template <class At>
-void append_facets(const std::vector<double>& us, const std::vector<double>& vs, At at, std::vector<Facet>& facets) {
+/// The facets between points at every pair of parameters; at(u, v) is a point. Those whose middle keep(u, v) does not
+/// want are left out, unless it wants none.
+template <class At, class Keep>
+void append_facets(const std::vector<double>& us, const std::vector<double>& vs, At at, Keep keep,
+                   std::vector<Facet>& facets) {
   std::vector<Eigen::Vector3d> points;
   for (const double u : us) {
     for (const double v : vs) points.push_back(at(u, v));
   }
   const auto point = [&](std::size_t i, std::size_t j) { return points[i * vs.size() + j]; };
+  std::vector<Facet> all, kept;
   for (std::size_t i = 0; i + 1 < us.size(); ++i) {
     for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-      facets.push_back({point(i, j), point(i + 1, j), point(i + 1, j + 1)});
-      facets.push_back({point(i, j), point(i + 1, j + 1), point(i, j + 1)});
+      all.push_back({point(i, j), point(i + 1, j), point(i + 1, j + 1)});
+      if (keep((us[i] + 2 * us[i + 1]) / 3, (2 * vs[j] + vs[j + 1]) / 3)) kept.push_back(all.back());
+      all.push_back({point(i, j), point(i + 1, j + 1), point(i, j + 1)});
+      if (keep((2 * us[i] + us[i + 1]) / 3, (vs[j] + 2 * vs[j + 1]) / 3)) kept.push_back(all.back());
     }
   }
+  const std::vector<Facet>& wanted = kept.empty() ? all : kept;
+  facets.insert(facets.end(), wanted.begin(), wanted.end());
 }
 
 }  // namespace bladefit

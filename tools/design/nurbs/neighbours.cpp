@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "tools/design/nurbs/facets.hpp"
 
@@ -18,20 +19,53 @@ constexpr std::size_t kStep = 4;
 using Edge = std::array<Eigen::Vector3d, kPoints>;
 
 struct Outline {
-  std::array<Edge, 4> edges;
+  std::vector<Edge> edges;
   Eigen::AlignedBox3d box;
 };
+
+/// A trim loop from one corner to the next, or as far as its vertices are points of one edge.
+using TrimSide = std::vector<TrimVertex>;
+
+std::vector<TrimSide> sides_of(const TrimLoop& loop) {
+  const auto first = std::ranges::find(loop, true, &TrimVertex::corner) - loop.begin();
+  std::vector<TrimSide> sides;
+  for (std::size_t k = 0; k <= loop.size(); ++k) {
+    const TrimVertex& vertex = loop[(static_cast<std::size_t>(first) + k) % loop.size()];
+    if (!sides.empty()) sides.back().push_back(vertex);
+    const bool full = !sides.empty() && sides.back().size() == kPoints;
+    if (k < loop.size() && (sides.empty() || vertex.corner || full)) sides.push_back({vertex});
+  }
+  return sides;
+}
+
+/// At even steps of the vertices' number.
+Edge edge_along(const BezierPatch& patch, const TrimSide& side) {
+  Edge edge;
+  for (std::size_t k = 0; k < kPoints; ++k) {
+    const double place = static_cast<double>(k) / (kPoints - 1) * static_cast<double>(side.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(place), side.size() - 2);
+    const double share = place - static_cast<double>(i);
+    edge[k] = point_of(patch, (1 - share) * side[i].u + share * side[i + 1].u,
+                       (1 - share) * side[i].v + share * side[i + 1].v);
+  }
+  return edge;
+}
 
 Outline outline_of(const NurbsSurface& surface) {
   const BezierPatch patch = extract_bezier(surface);
   Outline outline;
-  for (std::size_t side = 0; side < 4; ++side) {
+  for (std::size_t side = 0; side < 4 && surface.trims.empty(); ++side) {
+    Edge& edge = outline.edges.emplace_back();
     for (std::size_t k = 0; k < kPoints; ++k) {
       const double share = static_cast<double>(k) / (kPoints - 1), end = side % 2 == 0 ? 0 : 1;
-      Eigen::Vector3d& point = outline.edges[side][k];
-      point = side < 2 ? point_of(patch, end, share) : point_of(patch, share, end);
-      outline.box.extend(point);
+      edge[k] = side < 2 ? point_of(patch, end, share) : point_of(patch, share, end);
     }
+  }
+  for (const TrimLoop& loop : surface.trims) {
+    for (const TrimSide& side : sides_of(loop)) outline.edges.push_back(edge_along(patch, side));
+  }
+  for (const Edge& edge : outline.edges) {
+    for (const Eigen::Vector3d& point : edge) outline.box.extend(point);
   }
   return outline;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/surface/trim.hpp"
 #include "tools/design/nurbs/facets.hpp"
 #include "tools/files/tool_error.hpp"
 
@@ -106,7 +107,10 @@ std::optional<OutwardSide> outward_side_of(const Surface& surface) {
       return surface.evaluate(surface.place_at(patch, u, v)).s;
     };
     const std::size_t first = facets.size();
-    append_facets(parameters, parameters, at, facets);
+    const auto in_face = [&](double u, double v) {
+      return inside_face(surface.image(), surface.place_at(patch, u, v));
+    };
+    append_facets(parameters, parameters, at, in_face, facets);
     if (surface.image().patches()[patch].reversed == 0) continue;
     for (std::size_t k = first; k < facets.size(); ++k) std::swap(facets[k].b, facets[k].c);
   }

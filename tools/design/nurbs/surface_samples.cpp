@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/geometry/surface/surface.hpp"
+#include "core/geometry/surface/trim.hpp"
 #include "tools/files/random_numbers.hpp"
 
 namespace bladefit {
@@ -28,6 +29,13 @@ double parameter_of(const SamplePlan& plan, std::uint32_t k, std::uint32_t count
   if (count == 1) return (plan.low + plan.high) / 2;
   const double part = static_cast<double>(k) / (count - 1);
   return (1 - part) * plan.low + part * plan.high;
+}
+
+/// On its trim loops too: a place is looked at a little further inside of the patch.
+bool in_face(const Surface& surface, const SurfacePlace& place) {
+  constexpr double kInward = 1e-9;
+  const SurfacePlace inside{place.span, place.u + kInward * (0.5 - place.u), place.v + kInward * (0.5 - place.v)};
+  return inside_face(surface.image(), inside);
 }
 
 ProbePoint sample(const Surface& surface, const SurfacePlace& place, const SamplePlan& plan, NormalNumbers& noise) {
@@ -61,7 +69,9 @@ std::vector<ProbePoint> sample_surface(const DesignImage& design, const SamplePl
       for (std::uint32_t step = 0; step < steps; ++step) {
         const double u = parameter_of(plan, plan.lines_along_v ? line : step, plan.count_u);
         const double v = parameter_of(plan, plan.lines_along_v ? step : line, plan.count_v);
-        points.push_back(sample(surface, surface.place_at(patch, u, v), plan, noise));
+        const SurfacePlace place = surface.place_at(patch, u, v);
+        if (!in_face(surface, place)) continue;
+        points.push_back(sample(surface, place, plan, noise));
         points.back().path = path;
         points.back().sequence = static_cast<std::uint32_t>(points.size());
       }

@@ -23,7 +23,7 @@ struct SamplePlan {
 };
 
 /// Points of the design in scan order, one path a line, paths counted from 1 over all patches; there are at most 65535
-/// paths. Cost: one surface evaluation a point.
+/// paths. Places outside of the trim loops of a patch give none. Cost: one surface evaluation a point.
 std::vector<ProbePoint> sample_surface(const DesignImage& design, const SamplePlan& plan);
 
 }  // namespace bladefit

@@ -32,8 +32,8 @@ void append_surface(const CadFace& face, double tolerance_mm, DesignFile& design
     design.warnings.push_back(fmt::format("{}: {} of degree over {} or offset, approximated within {:.2g} mm",
                                           found.surface.name, found.kind, kMaxDegree, found.approximated));
   }
-  design.faces.push_back(
-      {face.entity, face.name, face.layer, found.kind, found.area, found.share, face.told, face.in_body});
+  design.faces.push_back({face.entity, face.name, face.layer, found.kind, found.area, found.share, found.trims_off,
+                          found.trims_fault, face.told, face.in_body});
   design.surfaces.push_back(std::move(found.surface));
 }
 

@@ -15,6 +15,8 @@
 
 #include "core/geometry/surface/design_image.hpp"
 #include "tools/design/nurbs/patch_split.hpp"
+#include "tools/design/nurbs/trim_loops.hpp"
+#include "tools/design/occ/face_loops.hpp"
 #include "tools/design/occ/face_trim.hpp"
 #include "tools/files/tool_error.hpp"
 
@@ -174,19 +176,17 @@ NurbsSurface cut_to(NurbsSurface surface, const FaceBox& box) {
 }
 
 /// Area of the face, and its share of the box.
-void measure(const Geom_Surface& surface, const FaceBox& box, const TrimLoops& loops, double scale,
-             FaceSurface& result) {
+void measure(const Geom_Surface& surface, const FaceBox& box, double scale, FaceSurface& result) {
   double whole = 0;
   const double du = (box.u_max - box.u_min) / kAreaGrid, dv = (box.v_max - box.v_min) / kAreaGrid;
   for (int i = 0; i < kAreaGrid; ++i) {
     for (int j = 0; j < kAreaGrid; ++j) {
-      const Eigen::Vector2d place(box.u_min + (i + 0.5) * du, box.v_min + (j + 0.5) * dv);
       gp_Pnt point;
       gp_Vec along_u, along_v;
-      surface.D1(place.x(), place.y(), point, along_u, along_v);
+      surface.D1(box.u_min + (i + 0.5) * du, box.v_min + (j + 0.5) * dv, point, along_u, along_v);
       const double area = scale * scale * along_u.Crossed(along_v).Magnitude() * du * dv;
       whole += area;
-      if (inside_loops(loops, place)) result.area += area;
+      if (inside_loops(result.surface.trims, (i + 0.5) / kAreaGrid, (j + 0.5) / kAreaGrid)) result.area += area;
     }
   }
   result.share = whole > 0 ? result.area / whole : 1;
@@ -211,7 +211,6 @@ FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
   FaceBox box = face_box(face.face);
   FaceSurface result;
   result.kind = kind_of(face);
-  measure(*basis, box, trim_loops(face.face), std::abs(place.Transformation().ScaleFactor()), result);
   Handle(Geom_Surface) part;
   Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(basis);
   const bool fit = spline.IsNull() ? result.kind == "offset surface" : over_degree(*spline);
@@ -222,8 +221,15 @@ FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
     if (over_degree(*spline)) part = spline;
   }
   if (!part.IsNull()) spline = approximated(part, tolerance_mm, result.approximated);
+  FaceBasis trimmed{basis, box, spline, box, std::abs(place.Transformation().ScaleFactor())};
   if (spline != basis) spline->Bounds(box.u_min, box.u_max, box.v_min, box.v_max);
+  trimmed.spline_box = box;
+  FaceLoops loops = face_loops(face.face, trimmed, tolerance_mm);
   result.surface = cut_to(nurbs_of(*spline, place, box), box);
+  result.surface.trims = std::move(loops.loops);
+  measure(*spline, trimmed.spline_box, trimmed.scale, result);
+  result.trims_off = loops.off_mm;
+  result.trims_fault = std::move(loops.fault);
   result.surface.reversed =
       (face.face.Orientation() == TopAbs_REVERSED) != (place.Transformation().IsNegative() == Standard_True);
   return result;

@@ -2,12 +2,9 @@
 
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
-#include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
 
 #include <cmath>
 
@@ -16,7 +13,6 @@ namespace {
 
 /// What is nearer to a natural bound than this share of the range lies on it: boundary curves are approximations.
 constexpr double kOnBound = 1e-4;
-constexpr int kSamples = 16;  ///< of each boundary curve
 
 /// Moves one end of an interval to the natural bound that it means.
 void settle(double& value, double low, double high) {
@@ -39,36 +35,6 @@ void settle(double& from, double& to, double low, double high, bool periodic) {
 }
 
 }  // namespace
-
-TrimLoops trim_loops(const TopoDS_Face& face) {
-  TrimLoops loops;
-  for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
-    for (TopExp_Explorer edges(wires.Current(), TopAbs_EDGE); edges.More(); edges.Next()) {
-      double first = 0, last = 0;
-      const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, first, last);
-      if (curve.IsNull()) continue;
-      std::vector<Eigen::Vector2d>& polygon = loops.emplace_back();
-      for (int k = 0; k <= kSamples; ++k) {
-        const gp_Pnt2d place = curve->Value(first + (last - first) * k / kSamples);
-        polygon.emplace_back(place.X(), place.Y());
-      }
-    }
-  }
-  return loops;
-}
-
-bool inside_loops(const TrimLoops& loops, const Eigen::Vector2d& place) {
-  bool inside = loops.empty();
-  for (const std::vector<Eigen::Vector2d>& polygon : loops) {
-    for (std::size_t k = 1; k < polygon.size(); ++k) {
-      const Eigen::Vector2d &a = polygon[k - 1], &b = polygon[k];
-      if ((a.y() > place.y()) == (b.y() > place.y())) continue;
-      const double crossing = a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      if (crossing > place.x()) inside = !inside;
-    }
-  }
-  return inside;
-}
 
 FaceBox face_box(const TopoDS_Face& face) {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);

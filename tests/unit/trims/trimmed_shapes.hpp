@@ -1,0 +1,21 @@
+#pragma once
+#include <TopoDS_Shape.hxx>
+
+#include <cstddef>
+#include <string>
+
+namespace bladefit::testing {
+
+/// A shape with trimmed faces, some 100 mm large.
+struct TrimmedShape {
+  std::string name;
+  TopoDS_Shape shape;
+  bool closed = false;  ///< a body: its sides are told
+};
+
+/// By number: a plate with holes, a curved sheet with a hole, slivers on it, a closed surface cut into two half faces,
+/// a lens-shaped blade with a trimmed tip, and one on a hub with a root fillet.
+inline constexpr std::size_t kTrimmedShapes = 6;
+[[nodiscard]] TrimmedShape trimmed_shape(std::size_t index);
+
+}  // namespace bladefit::testing
