@@ -26,7 +26,7 @@ NurbsSurface plate_with_square_hole() {
   return plate;
 }
 
-Foot foot_at(const CompiledDesign& design, const Vec3& r) {
+Foot foot_on(const CompiledDesign& design, const Vec3& r) {
   const GlobalProjection found = project_global(design.surface(), {r}, nullptr);
   EXPECT_TRUE(found.proven) << r.transpose();
   return foot_of(design.surface(), found.nearest, 0.0);
@@ -40,13 +40,13 @@ void expect_foot(const Foot& foot, const Vec3& point, FootKind kind, FootBorder 
 
 TEST(Trim, FeetAreInTheFaceOrOnItsLoops) {
   const CompiledDesign design(flat_design({plate_with_square_hole()}));
-  expect_foot(foot_at(design, {20, 30, 2}), {20, 30, 0}, FootKind::interior, FootBorder::none);
-  expect_foot(foot_at(design, {45, 50, 1}), {40, 50, 0}, FootKind::edge, FootBorder::outer);
-  expect_foot(foot_at(design, {110, 50, 1}), {100, 50, 0}, FootKind::edge, FootBorder::outer);
-  expect_foot(foot_at(design, {-3, -4, 12}), {0, 0, 0}, FootKind::corner, FootBorder::outer);
-  EXPECT_NEAR(foot_at(design, {45, 50, 12}).distance, 13.0, 1e-9);
-  EXPECT_NEAR(foot_at(design, {45, 50, 12}).beyond, 5.0, 1e-9);
-  EXPECT_NEAR(foot_at(design, {20, 30, -2}).distance, -2.0, 1e-12);
+  expect_foot(foot_on(design, {20, 30, 2}), {20, 30, 0}, FootKind::interior, FootBorder::none);
+  expect_foot(foot_on(design, {45, 50, 1}), {40, 50, 0}, FootKind::edge, FootBorder::outer);
+  expect_foot(foot_on(design, {110, 50, 1}), {100, 50, 0}, FootKind::edge, FootBorder::outer);
+  expect_foot(foot_on(design, {-3, -4, 12}), {0, 0, 0}, FootKind::corner, FootBorder::outer);
+  EXPECT_NEAR(foot_on(design, {45, 50, 12}).distance, 13.0, 1e-9);
+  EXPECT_NEAR(foot_on(design, {45, 50, 12}).beyond, 5.0, 1e-9);
+  EXPECT_NEAR(foot_on(design, {20, 30, -2}).distance, -2.0, 1e-12);
 }
 
 /// Half of a plate each, on either side of a slanted line; the second on a patch of other parameters.
@@ -65,7 +65,7 @@ TEST(Trim, FacesThatMeetAlongLoopsGoOn) {
   std::uniform_real_distribution<double> along(1.0, 99.0);
   for (int k = 0; k < 2000; ++k) {
     const Vec3 place(along(random), along(random), 0);
-    const Foot foot = foot_at(design, place + Vec3(0, 0, 0.7));
+    const Foot foot = foot_on(design, place + Vec3(0, 0, 0.7));
     expect_foot(foot, place, FootKind::interior, FootBorder::none);
     EXPECT_NEAR(foot.distance, 0.7, 1e-9);
     EXPECT_EQ(foot.patch, place.x() < 30 + 0.4 * place.y() ? 0U : 1U);
@@ -75,7 +75,7 @@ TEST(Trim, FacesThatMeetAlongLoopsGoOn) {
 TEST(Trim, LoopsThatMeetNothingAreOuterEdges) {
   const CompiledDesign design(flat_design(two_halves(-30.0)));
   // Over what the plane of the upper half is beyond its loop: that is no surface.
-  const Foot foot = foot_at(design, {55, 50, 1});
+  const Foot foot = foot_on(design, {55, 50, 1});
   EXPECT_EQ(foot.patch, 0U);
   EXPECT_EQ(foot.kind, FootKind::edge);
   EXPECT_EQ(foot.border, FootBorder::outer);
