@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "config/toml_error.hpp"
 #include "drivers/text/read_file.hpp"
 
 namespace bladefit {
@@ -99,8 +100,7 @@ TomlDocument read_toml(const std::string& path) {
   try {
     document.root = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    document.error =
-        bad_input(fmt::format("{}:{}: {}; correct the TOML", path, error.source().begin.line, error.description()));
+    document.error = bad_input(fmt::format("{}:{}", path, toml_error_text(text, error)));
   }
   return document;
 }
@@ -255,8 +255,8 @@ void TableReader::finish() {
     if (std::find(asked_.begin(), asked_.end(), word) != asked_.end()) continue;
     const std::string nearest = nearest_name(word, asked_);
     const std::string fix = nearest.empty() ? "known keys: " + joined(asked_) : "did you mean '" + nearest + "'?";
-    document_->error = bad_input(
-        fmt::format("{}:{}: unknown key '{}'; {}", document_->name, key.source().begin.line, full_name(word), fix));
+    document_->error = bad_input(fmt::format("{}:{}: unknown key '{}'; {}", document_->name, key.source().begin.line,
+                                             excerpt(full_name(word)), fix));
     return;
   }
 }

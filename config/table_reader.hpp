@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/toml_error.hpp"
 #include "drivers/source/failure.hpp"
 
 namespace bladefit {
@@ -76,7 +77,7 @@ class TableReader {
       }
       names += (names.empty() ? "" : ", ") + std::string(name);
     }
-    fail(key, "'" + text + "' is none of: " + names);
+    fail(key, "'" + excerpt(text) + "' is none of: " + names);
   }
 
   /// A path, not empty; a relative one is taken from the folder of the file.

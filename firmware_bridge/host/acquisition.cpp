@@ -25,6 +25,7 @@ void Acquisition::run() {
       follow_commands();
       take_points();
       acknowledge_stored();
+      watch_disk();
       follow_source();
       end = end_reached();
     }
@@ -94,7 +95,10 @@ void Acquisition::take_point(const ProbePoint& point) {
 // The fit comes first: its alarm is what the operator waits for.
 void Acquisition::take(const StreamEvent& event) {
   give_to_fit({.event = event});
-  while (!shared_.to_journal.ring.push(event) && !shared_.outcome.failed()) std::this_thread::sleep_for(kRoomPause);
+  while (!shared_.to_journal.ring.push(event) && !shared_.outcome.failed()) {
+    watch_disk();
+    std::this_thread::sleep_for(kRoomPause);
+  }
   shared_.to_journal.wakeup.signal();
   ++taken_events_;
 }
@@ -212,9 +216,15 @@ void Acquisition::acknowledge_stored() {
   source_.acknowledge(stored);
 }
 
+void Acquisition::watch_disk() {
+  const std::string told = disk_.look(taken_events_, shared_.stored.events.load(), DiskWatch::Clock::now());
+  if (!told.empty()) shared_.notices.write(told);
+}
+
 void Acquisition::finish(SessionEnd end) {
   while (shared_.stored.events.load() < taken_events_ && !shared_.outcome.failed()) {
     shared_.stored.wakeup.wait(kStoreWait);
+    watch_disk();
   }
   if (opened_) {
     acknowledge_stored();

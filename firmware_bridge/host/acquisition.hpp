@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "firmware_bridge/host/journal/disk_watch.hpp"
 #include "firmware_bridge/host/journal/journal.hpp"
 #include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
@@ -26,7 +27,12 @@ class Acquisition {
   /// `recorded`: what the journal holds from before; it is given to the fit again, in the same order.
   Acquisition(AcquisitionSettings settings, const JournalReader& recorded, ProbeSource& source, Journal& journal,
               HostShared& shared)
-      : settings_(std::move(settings)), recorded_(recorded), source_(source), journal_(journal), shared_(shared) {}
+      : settings_(std::move(settings)),
+        recorded_(recorded),
+        source_(source),
+        journal_(journal),
+        shared_(shared),
+        disk_(settings_.directory) {}
 
   /// Runs until the session ends; then everything taken is on disk, unless the session has failed.
   void run();
@@ -50,6 +56,7 @@ class Acquisition {
   void take(const StreamEvent& event);
   void give_to_fit(const FitInput& input);
   void acknowledge_stored();
+  void watch_disk();
   void finish(SessionEnd end);
 
   AcquisitionSettings settings_;
@@ -57,6 +64,7 @@ class Acquisition {
   ProbeSource& source_;
   Journal& journal_;
   HostShared& shared_;
+  DiskWatch disk_;
   std::uint32_t last_sequence_ = 0;
   std::uint32_t acknowledged_ = 0;
   std::uint32_t run_id_ = 0;
