@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "bladefit_commit.hpp"
 #include "core/geometry/simd/lanes.hpp"
+#include "tools/commands/commit.hpp"
 #include "tools/design/cad_library.hpp"
 #include "tools/files/tool_error.hpp"
 
@@ -21,9 +21,8 @@ std::string cad_text() {
 }  // namespace
 
 std::string version_text() {
-  return fmt::format("bladefit {} ({})\nprocessor: {}; the results are the same bits\n{}\n", BLADEFIT_VERSION,
-                     kBladefitCommit, lanes_available() ? "AVX2, four points at once" : "no AVX2, one point at a time",
-                     cad_text());
+  return fmt::format("bladefit {} ({})\nprocessor: {}; the results are the same bits\n{}\n", BLADEFIT_VERSION, kCommit,
+                     lanes_available() ? "AVX2, four points at once" : "no AVX2, one point at a time", cad_text());
 }
 
 }  // namespace bladefit
