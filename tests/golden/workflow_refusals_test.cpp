@@ -40,7 +40,8 @@ TEST_P(WorkflowRefusals, InOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Command, WorkflowRefusals,
-                         ::testing::Values(Refusal{{"lofty"}, "'lofty' is no command (did you mean loft?); `bladefit --help` lists them"}));
+                         ::testing::Values(Refusal{
+                             {"lofty"}, "'lofty' is no command (did you mean loft?); `bladefit --help` lists them"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Loft, WorkflowRefusals,
