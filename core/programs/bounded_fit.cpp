@@ -145,7 +145,7 @@ ActiveSetResult BoundedFit::solve_corrected() {
     rows_.set_bounds(row, {kept[at].lower - bent, kept[at].upper - bent});
   }
   ActiveSetResult second = solve_levels();
-  for (int k = 0; k < active_.count; ++k) {
+  for (int k = active_.count - 1; k >= 0; --k) {  // backwards: a row may be there with both sides
     const auto at = static_cast<std::size_t>(k);
     if (!rows_.is_distance(active_.entries[at].index)) continue;
     rows_.set_bounds(static_cast<std::uint32_t>(active_.entries[at].index), kept[at]);
