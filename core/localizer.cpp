@@ -34,10 +34,13 @@ bool settled(const LocalizerParts& p) {
   return p.sums.moved_to(p.estimate.pose()) <= tuning::kRestShare * std::min(map.leading_edge_mm, map.rest_mm);
 }
 
-Evidence evidence_of(const LocalizerParts& p) {
+/// `at_rest`: what settled() says, which many points share.
+Evidence evidence_of(const LocalizerParts& p, bool at_rest) {
   const std::uint32_t spare = 6 - p.estimate.determination().locked + tuning::kLeastSpare;
-  return {p.estimate, p.sums.model().count >= (p.stream.concluded ? spare : tuning::kLeastJudged), settled(p)};
+  return {p.estimate, p.sums.model().count >= (p.stream.concluded ? spare : tuning::kLeastJudged), at_rest};
 }
+
+Evidence evidence_of(const LocalizerParts& p) { return evidence_of(p, settled(p)); }
 
 Status check(const LocalizerParts& p, const ProbePoint& point) {
   if (const Status status = p.problem.check(point); status != Status::ok) return status;
@@ -173,15 +176,19 @@ Status Localizer::push(const ProbePoint& point, Verdict& verdict) {
   const bool stored = index < p.store.size();
   StoredPoint& own = stored ? p.store[index] : passing;
 
-  const auto review = [&p](std::uint32_t i, const Measurement& m) {
+  bool at_rest = settled(p);
+  const auto review = [&p, &at_rest](std::uint32_t i, const Measurement& m) {
     p.store.record(p.store[i], m, p.estimate.revision());
     p.stream_optimum.look_at(p.store, i, m);
-    p.verdicts.judge_again(p.store, i, evidence_of(p));
+    p.verdicts.judge_again(p.store, i, evidence_of(p, at_rest));
   };
   p.sums.settle(p.store, p.estimate);
   const bool stale = p.sums.moved_to(p.estimate.pose()) > tuning::kStaleBeyond * p.problem.frame.length;
   const std::uint32_t budget = p.problem.config.refresh_per_push * (stale ? tuning::kCatchUp : 1);
-  if (p.sums.refresh(p.store, p.estimate, budget, review)) p.estimate.redetermine();
+  if (p.sums.refresh(p.store, p.estimate, budget, review)) {
+    p.estimate.redetermine();
+    at_rest = settled(p);
+  }
   p.sums.gather(p.store, p.estimate.pose(), point.sequence, measured, review);
 
   const Minimum minimum =
@@ -226,7 +233,8 @@ Status Localizer::refine(std::uint32_t max_points) {
   }
   const Status status = p.refinement.advance(max_points, p.stream.concluded, p.optimum);
   if (status == Status::more_work) return status;
-  for (std::uint32_t i = 0; i < p.store.size(); ++i) p.verdicts.judge_again(p.store, i, evidence_of(p));
+  const Evidence evidence = evidence_of(p);
+  for (std::uint32_t i = 0; i < p.store.size(); ++i) p.verdicts.judge_again(p.store, i, evidence);
   if (status == Status::ok && p.plan.bounded()) p.stream_optimum.begin(p.store, p.estimate.pose(), 1);
   return status;
 }

@@ -13,10 +13,6 @@ double outside(const ParameterBox& box, double u, double v) {
 
 }  // namespace
 
-bool contains(const ParameterBox& box, std::uint32_t patch, double u, double v) {
-  return box.patch == patch && outside(box, u, v) == 0.0;
-}
-
 std::uint32_t first_of_zone(const ToleranceMap& map, std::uint32_t k) {
   const std::uint32_t zone = map.boxes[k].zone;
   while (zone != 0 && k > 0 && map.boxes[k - 1].zone == zone) --k;
@@ -27,22 +23,16 @@ bool sets_tolerance(const ToleranceMap& map) {
   return std::isfinite(map.rest_mm) || (std::isfinite(map.leading_edge_mm) && map.box_count > 0);
 }
 
-Region region_at(const ToleranceMap& map, std::uint32_t patch, double u, double v) {
-  for (std::uint32_t k = 0; k < map.box_count; ++k) {
-    if (contains(map.boxes[k], patch, u, v)) return Region::leading_edge;
-  }
-  return Region::rest;
-}
-
-double tolerance_at(const ToleranceMap& map, std::uint32_t patch, double u, double v) {
+double tolerance_at(const ToleranceMap& map, Region region, std::uint32_t patch, double u, double v) {
+  if (region == Region::leading_edge) return map.leading_edge_mm;
+  if (!(map.transition > 0.0) || !std::isfinite(map.rest_mm) || !std::isfinite(map.leading_edge_mm)) return map.rest_mm;
   double share = 1.0;  // of the way from the leading edge's tolerance to the rest's
   for (std::uint32_t k = 0; k < map.box_count; ++k) {
     if (map.boxes[k].patch != patch) continue;
     const double distance = outside(map.boxes[k], u, v);
-    if (distance == 0.0) return map.leading_edge_mm;
     if (distance < map.transition) share = std::min(share, distance / map.transition);
   }
-  if (share == 1.0 || !std::isfinite(map.rest_mm) || !std::isfinite(map.leading_edge_mm)) return map.rest_mm;
+  if (share == 1.0) return map.rest_mm;
   return map.leading_edge_mm + share * (map.rest_mm - map.leading_edge_mm);
 }
 

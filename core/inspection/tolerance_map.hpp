@@ -27,7 +27,9 @@ struct ToleranceMap {
 };
 
 /// Whether (u, v) of `patch` lies in the box.
-[[nodiscard]] bool contains(const ParameterBox& box, std::uint32_t patch, double u, double v);
+[[nodiscard]] inline bool contains(const ParameterBox& box, std::uint32_t patch, double u, double v) {
+  return box.patch == patch && u >= box.u_min && u <= box.u_max && v >= box.v_min && v <= box.v_max;
+}
 
 /// The first box of the zone that box `k` belongs to. Cost: linear in the boxes of the zone.
 [[nodiscard]] std::uint32_t first_of_zone(const ToleranceMap& map, std::uint32_t k);
@@ -36,9 +38,18 @@ struct ToleranceMap {
 [[nodiscard]] bool sets_tolerance(const ToleranceMap& map);
 
 /// Region of a foot at (u, v) of `patch`. Cost: linear in box_count.
-[[nodiscard]] Region region_at(const ToleranceMap& map, std::uint32_t patch, double u, double v);
+[[nodiscard]] inline Region region_at(const ToleranceMap& map, std::uint32_t patch, double u, double v) {
+  for (std::uint32_t k = 0; k < map.box_count; ++k) {
+    if (contains(map.boxes[k], patch, u, v)) return Region::leading_edge;
+  }
+  return Region::rest;
+}
 
-/// Tolerance [mm] at (u, v) of `patch`, the transition zone included. Cost: linear in box_count.
-[[nodiscard]] double tolerance_at(const ToleranceMap& map, std::uint32_t patch, double u, double v);
+/// Tolerance [mm] at (u, v) of `patch`, which lies in `region`; the transition zone included. Cost: linear in
+/// box_count.
+[[nodiscard]] double tolerance_at(const ToleranceMap& map, Region region, std::uint32_t patch, double u, double v);
+[[nodiscard]] inline double tolerance_at(const ToleranceMap& map, std::uint32_t patch, double u, double v) {
+  return tolerance_at(map, region_at(map, patch, u, v), patch, u, v);
+}
 
 }  // namespace bladefit

@@ -31,8 +31,8 @@ Pose FitProblem::moved_and_held(const Pose& pose, const Vec6& x) const {
 
 Region FitProblem::region_of(const Foot& foot) const { return region_at(config.tolerance, foot.patch, foot.u, foot.v); }
 
-double FitProblem::tolerance_of(const Foot& foot) const {
-  return tolerance_at(config.tolerance, foot.patch, foot.u, foot.v);
+double FitProblem::tolerance_of(const Foot& foot, Region region) const {
+  return tolerance_at(config.tolerance, region, foot.patch, foot.u, foot.v);
 }
 
 Status FitProblem::check(const ProbePoint& point) const {

@@ -15,8 +15,8 @@ struct FitProblem {
   /// `pose` moved by x, with the locked degrees of freedom of the start pose.
   [[nodiscard]] Pose moved_and_held(const Pose& pose, const Vec6& x) const;
   [[nodiscard]] Region region_of(const Foot& foot) const;
-  /// [mm]
-  [[nodiscard]] double tolerance_of(const Foot& foot) const;
+  /// Of a foot in `region` [mm].
+  [[nodiscard]] double tolerance_of(const Foot& foot, Region region) const;
   /// Whether a point can be taken in: ok, not_finite or out_of_range. Its sequence is only checked for 0.
   [[nodiscard]] Status check(const ProbePoint& point) const;
   [[nodiscard]] bool on_design(const SurfacePlace& place) const;

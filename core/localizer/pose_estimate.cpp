@@ -78,8 +78,9 @@ PoseEstimate::DistanceUncertainty PoseEstimate::uncertainty_of(const Vec3& posit
   Vec6 gradient;
   gradient.head<3>() = (apply(pose_, position) - frame.pivot).cross(foot.normal) / frame.length;
   gradient.tail<3>() = foot.normal;
+  const double free = determination_.rank == 6 ? 0.0 : (determination_.free_directions.transpose() * gradient).norm();
   return {sigma_ * std::sqrt(std::max(0.0, gradient.dot(covariance_ * gradient))),
-          (determination_.free_directions.transpose() * gradient).norm() * tuning::kStartUncertainty * frame.length};
+          free * tuning::kStartUncertainty * frame.length};
 }
 
 }  // namespace bladefit

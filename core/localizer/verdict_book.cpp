@@ -23,7 +23,7 @@ void VerdictBook::count(const StoredPoint& point, int sign) {
 void VerdictBook::assign_region(StoredPoint& point) {
   count(point, -1);
   point.region = problem_.region_of(point.foot);
-  point.tolerance = problem_.tolerance_of(point.foot);
+  point.tolerance = problem_.tolerance_of(point.foot, point.region);
   count(point, +1);
 }
 
@@ -55,7 +55,7 @@ void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   if (point.tolerance != 0.0) count(point, -1);
   if (!selection_.held()) {
     point.region = problem_.region_of(point.foot);
-    point.tolerance = problem_.tolerance_of(point.foot);
+    point.tolerance = problem_.tolerance_of(point.foot, point.region);
   }
   assess(point, evidence);
   count(point, +1);
@@ -63,7 +63,7 @@ void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
 
 void VerdictBook::judge_aside(StoredPoint& point, const Evidence& evidence) const {
   point.region = problem_.region_of(point.foot);
-  point.tolerance = problem_.tolerance_of(point.foot);
+  point.tolerance = problem_.tolerance_of(point.foot, point.region);
   assess(point, evidence);
 }
 
