@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/geometry/nearest/collapsed_side.hpp"
 #include "core/geometry/nearest/distance_certificate.hpp"
 #include "core/geometry/nearest/leaf_bounds.hpp"
 
@@ -68,6 +69,7 @@ class LeafSearch {
 
   LeafOutcome search_pieces(const Piece& first, std::uint32_t budget) {
     LeafOutcome outcome;
+    at_pole_ = has_pole(surface_, index_, kSameFoot * surface_.half_diagonal());
     std::array<Piece, kMaxCuts + 2> stack;
     std::size_t size = 0;
     stack[size++] = first;
@@ -100,9 +102,29 @@ class LeafSearch {
     const double bound = std::min(limit, range.most);
     const DistanceForm form(net_, query_.point, bound);
     if (bound == limit && form.farther(nearest_.slack() * (2.0 * bound + nearest_.slack()))) return Fate::settled;
+    if (at_pole_ && is_one_foot(piece.rect, range.least)) return Fate::settled;
     DerivativeRanges ranges = form.ranges();
     if (patch_.rational != 0) ranges = hull(ranges, DistanceForm(net_, query_.point, range.least).ranges());
     return decide(piece, prove(ranges, piece.shape()));
+  }
+
+  /// About a pole nothing is convex. There a piece that is so small that all of its minima are one foot is settled
+  /// where it is no nearer than the nearest; else it is a start, from which the nearest may be found.
+  bool is_one_foot(const LocalRect& rect, double least) {
+    const double size = kSameFoot * surface_.half_diagonal();
+    const Homogeneous& first = net_.points[0];
+    for (std::uint32_t k = 1; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k) {
+      const Homogeneous& h = net_.points[k];
+      if ((h.head<3>() / h[3] - first.head<3>() / first[3]).matrix().squaredNorm() > size * size) return false;
+    }
+    const Projection found = project_local(surface_, query_.point, start_in(rect));
+    nearest_.consider(found);
+    if (least < nearest_.least_that_matters()) return false;
+    Projection about = found;
+    about.place = start_in(rect);
+    about.at = surface_.evaluate(about.place);
+    nearest_.consider_possible(about, least);
+    return true;
   }
 
   /// settled: nothing in the piece can matter, or its only minimum was considered. shrunk: the piece was reduced to the
@@ -244,7 +266,8 @@ class LeafSearch {
   SpanDomain domain_;
   Vec3 arm_;  ///< the point in the frame of the leaf
   NearestSoFar& nearest_;
-  BezierNet net_;  ///< of the piece in hand
+  BezierNet net_;         ///< of the piece in hand
+  bool at_pole_ = false;  ///< a side of the span is one foot
 };
 
 }  // namespace
