@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/surface/bezier.hpp"
-
 namespace bladefit {
 namespace {
 
@@ -106,13 +104,35 @@ std::size_t pole_side(const Surface& surface, const SurfacePlace& place, const S
   return kNoSide;
 }
 
-bool has_pole(const Surface& surface, std::uint32_t span, double size) {
+SpanPoles poles_of(const Surface& surface, std::uint32_t span, double size) {
   const ImageSpan& s = surface.span(span);
   const ImagePatch& p = surface.patch_of(span);
-  return (s.iu == 0 && is_point(surface, span, kLowU, size)) ||
-         (s.iu + 1 == p.spans_u && is_point(surface, span, kHighU, size)) ||
-         (s.iv == 0 && is_point(surface, span, kLowV, size)) ||
-         (s.iv + 1 == p.spans_v && is_point(surface, span, kHighV, size));
+  SpanPoles poles;
+  if (s.iu == 0 && is_point(surface, span, kLowU, size))
+    poles.u = PoleEnd::low;
+  else if (s.iu + 1 == p.spans_u && is_point(surface, span, kHighU, size))
+    poles.u = PoleEnd::high;
+  if (s.iv == 0 && is_point(surface, span, kLowV, size))
+    poles.v = PoleEnd::low;
+  else if (s.iv + 1 == p.spans_v && is_point(surface, span, kHighV, size))
+    poles.v = PoleEnd::high;
+  return poles;
+}
+
+double pole_cut(double low, double high, double share) {
+  constexpr double kSameScale = 4.0;
+  const double middle = 0.5 * (low + high);
+  if (low <= 0.0) return std::min(middle, share * high);
+  return high > kSameScale * low ? std::sqrt(low * high) : middle;
+}
+
+double extent_of(const BezierNet& net) {
+  const auto place = [&net](std::uint32_t k) { return Vec3(net.points[k].head<3>() / net.points[k][3]); };
+  const Vec3 first = place(0);
+  double square = 0.0;
+  for (std::uint32_t k = 1; k < (net.degree_u + 1) * (net.degree_v + 1); ++k)
+    square = std::max(square, (place(k) - first).squaredNorm());
+  return 2.0 * std::sqrt(square);
 }
 
 PoleWay steepest_from_pole(const Surface& surface, const SurfacePlace& pole, std::size_t side, const Vec3& offset,

@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include "core/geometry/nearest/local_projection.hpp"
+#include "core/geometry/surface/bezier.hpp"
 
 namespace bladefit {
 
@@ -19,8 +20,23 @@ inline constexpr std::size_t kNoSide = 4;
 [[nodiscard]] std::size_t pole_side(const Surface& surface, const SurfacePlace& place, const SurfacePoint& at,
                                     double size);
 
-/// A side of its patch that the span has is within `size` [mm] one point. Cost: one subtraction a control point of each.
-[[nodiscard]] bool has_pole(const Surface& surface, std::uint32_t span, double size);
+/// Where a span has a pole in each of its parameters.
+enum class PoleEnd : std::uint8_t { none, low, high };
+struct SpanPoles {
+  PoleEnd u = PoleEnd::none, v = PoleEnd::none;
+  [[nodiscard]] bool any() const { return u != PoleEnd::none || v != PoleEnd::none; }
+};
+
+/// The sides of its patch that the span has which are within `size` [mm] one point. Cost: one subtraction a control
+/// point of these.
+[[nodiscard]] SpanPoles poles_of(const Surface& surface, std::uint32_t span, double size);
+
+/// Where a piece of a surface is cut that is from `low` to `high` [spans] away from a pole: a piece at the pole at
+/// `share` of it; else in the geometric mean, since about a pole things repeat on every scale.
+[[nodiscard]] double pole_cut(double low, double high, double share);
+
+/// No two places of the piece are farther apart than this [mm]. Cost: one subtraction a control point.
+[[nodiscard]] double extent_of(const BezierNet& net);
 
 /// How the distance from a point changes on the ways from a pole into the surface.
 struct PoleWay {
@@ -30,8 +46,8 @@ struct PoleWay {
 };
 
 /// The way on which the distance falls most, or rises least, of those that were tried between the limits. `offset`:
-/// r - pole [mm]; a slope within `level` [mm] of 0 is rounding. Of spans whose control points next to the side tell that
-/// it falls on no way none is tried, of others two a degree.
+/// r - pole [mm]; a slope within `level` [mm] of 0 is rounding. Of spans whose control points next to the side tell
+/// that it falls on no way none is tried, of others two a degree.
 [[nodiscard]] PoleWay steepest_from_pole(const Surface& surface, const SurfacePlace& pole, std::size_t side,
                                          const Vec3& offset, const ParameterLimits& limits, double level);
 

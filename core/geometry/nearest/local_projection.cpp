@@ -117,9 +117,7 @@ class Descent {
     return step_of(q, u || result_.fixed_u, v || result_.fixed_v);
   }
 
-  [[nodiscard]] std::size_t pole_here() const {
-    return pole_side(surface_, result_.place, result_.at, kPole * scale_);
-  }
+  [[nodiscard]] std::size_t pole_here() const { return pole_side(surface_, result_.place, result_.at, kPole * scale_); }
 
   /// Takes a step on the way on which the distance falls most; false where it falls on none: the pole is the minimum,
   /// with the parameter of the way on which it rises least.
