@@ -185,22 +185,28 @@ const CompiledDesign& trimmed_blade() {
 TEST(WorldChecks, PointsBesideATrimmedFaceMirrorNothingWhereTheFrameIsKnown) {
   FitPlan plan = judging_plan();
   plan.localizer.locked = kAllButTx;
-  plan.localizer.start = fit_points(propeller_blade().design, judging_plan(), blade_points(), "p.csv").result.pose;
+  plan.localizer.start = fitted(blade_points()).pose;
   const Result result = fit_points(trimmed_blade().image(), plan, blade_points(), "points.csv").result;
   const auto beside = std::count_if(result.points.begin(), result.points.end(),
                                     [](const ResultPoint& p) { return p.kind != FootKind::interior; });
   EXPECT_GT(4 * static_cast<std::size_t>(beside), result.points.size());
   EXPECT_LT(2 * static_cast<std::size_t>(beside), result.points.size());
   EXPECT_TRUE(result.verdict.fit_decided()) << result.verdict.reasons.front().text;
+  for (const ResultPoint& point : result.points) {
+    if (point.kind == FootKind::interior) EXPECT_EQ(point.state, PointState::in);
+  }
 }
 
 TEST(WorldChecks, MirroredPointsAreNamedWhereTheFrameIsKnown) {
   FitPlan plan = judging_plan();
-  plan.localizer.start = fit_points(propeller_blade().design, judging_plan(), blade_points(), "p.csv").result.pose;
   plan.localizer.locked = kAllButTx;
-  Mat3 mirror = Mat3::Identity();
-  mirror(1, 1) = -1.0;
-  expect_undecided(fitted(mapped(blade_points(), mirror, Vec3::Zero()), plan), Reason::mirrored, "mirrored");
+  const Pose pose = fitted(blade_points()).pose;
+  for (int axis = 1; axis < 3; ++axis) {
+    Mat3 mirror = Mat3::Identity();
+    mirror(axis, axis) = -1.0;
+    const std::vector<ProbePoint> aligned = mapped(blade_points(), pose.rotation, pose.translation);
+    expect_undecided(fitted(mapped(aligned, mirror, Vec3::Zero()), plan), Reason::mirrored, "mirrored");
+  }
 }
 
 /// Three blades, one a patch.
