@@ -73,6 +73,7 @@ class Descent {
   }
 
   Projection run() {
+    bool crossed = false;
     for (int evaluations = 1; evaluations < kMaxEvaluations;) {
       const DistanceQuadratic q = quadratic_of(result_.at, result_.offset);
       hold_at_limits(q);
@@ -85,9 +86,17 @@ class Descent {
       step = blocked(q, step);
       const double length = (result_.at.s_u * step.du + result_.at.s_v * step.dv).norm();
       if (length <= kLastStep * scale_) {
+        const std::uint32_t span = result_.place.span;
         finish(step);
         result_.converged = step.newton;
-        break;
+        if (result_.place.span == span || crossed) break;
+        // It has left its span, which may be thinner than that step: what is beyond may fall on.
+        crossed = true;
+        result_.converged = false;
+        result_.at = surface_.evaluate(result_.place);
+        result_.offset = r_ - result_.at.s;
+        ++evaluations;
+        continue;
       }
       if (!descend(step, evaluations)) break;
     }

@@ -148,12 +148,15 @@ std::vector<double> looks(const std::vector<double>& breaks) {
   return out;
 }
 
+/// Looked at where spans are left, and inside of those that are gone.
 double moved(const Evaluated& before, const NurbsSurface& after) {
   const Evaluated now(after);
-  const std::vector<double> us = looks(now.patch().breaks_u), vs = looks(now.patch().breaks_v);
   double most = 0;
-  for (const double u : us) {
-    for (const double v : vs) most = std::max(most, (before.at(u, v) - now.at(u, v)).norm());
+  for (const BezierPatch* patch : {&now.patch(), &before.patch()}) {
+    const std::vector<double> us = looks(patch->breaks_u), vs = looks(patch->breaks_v);
+    for (const double u : us) {
+      for (const double v : vs) most = std::max(most, (before.at(u, v) - now.at(u, v)).norm());
+    }
   }
   return most;
 }

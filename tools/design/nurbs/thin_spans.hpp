@@ -14,8 +14,8 @@ struct MergedSpans {
 /// span is thousands of times longer than wide, and its derivatives are the rounding of its control points. Where more
 /// knots than the degree come together, the control points that they leave without a place of their own go. Spans up
 /// to a millionth of the range are merged, or of a smaller part of it, so that no place that is looked at, five in each
-/// direction of every span that is left, moves farther than `tolerance_mm`; a surface without such spans stays as it
-/// is. `surface` is one that check_surface has accepted. Cost: linear in the number of spans.
+/// direction of every span that is left or gone, moves farther than `tolerance_mm`; a surface without such spans stays
+/// as it is. `surface` is one that check_surface has accepted. Cost: linear in the number of spans.
 MergedSpans merge_thin_spans(NurbsSurface& surface, double tolerance_mm);
 
 }  // namespace bladefit
