@@ -18,6 +18,8 @@ constexpr int kMaxEvaluations = 60;
 constexpr double kPerpendicular = 1e-11;
 /// A last step that moves a parameter by more than this [spans], as it does about a pole, is evaluated.
 constexpr double kWideStep = 1e-3;
+/// What is nearer to a pole than this cannot be told from it [half diagonals].
+constexpr double kAboutPole = 1e-8;
 /// Where the distance is greatest at a pole, the first step away from it [spans].
 constexpr double kPoleStep = 1.0 / 16.0;
 
@@ -88,11 +90,12 @@ class Descent {
       if (length <= kLastStep * scale_) {
         const std::uint32_t span = result_.place.span;
         finish(step);
-        result_.converged = step.newton;
+        result_.at_pole = !step.newton && about_pole();
+        result_.converged = step.newton || result_.at_pole;
         if (result_.place.span == span || crossed) break;
         // It has left its span, which may be thinner than that step: what is beyond may fall on.
         crossed = true;
-        result_.converged = false;
+        result_.converged = result_.at_pole = false;
         result_.at = surface_.evaluate(result_.place);
         result_.offset = r_ - result_.at.s;
         ++evaluations;
@@ -145,6 +148,16 @@ class Descent {
     const double least = std::max(0.0, inward * result_.offset.dot(tangent) / tangent.squaredNorm());
     const double length = way.slope < -kPerpendicular * scale_ ? inward * least : kPoleStep * width;
     return descend(along_v ? Step{length, 0.0} : Step{0.0, length}, evaluations);
+  }
+
+  /// So near to a pole that a minimum there cannot be told from the pole: Newton's method has no room to turn.
+  [[nodiscard]] bool about_pole() const {
+    const SpanPoles poles = poles_of(surface_, result_.place.span, kPole * scale_);
+    if (!poles.any()) return false;
+    SurfacePlace pole = result_.place;
+    if (poles.u != PoleEnd::none) pole.u = poles.u == PoleEnd::low ? 0.0 : 1.0;
+    if (poles.u == PoleEnd::none) pole.v = poles.v == PoleEnd::low ? 0.0 : 1.0;
+    return (surface_.evaluate(pole).s - result_.at.s).norm() <= kAboutPole * scale_;
   }
 
   void rest_on_pole(std::size_t side) {
