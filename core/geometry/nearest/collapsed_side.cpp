@@ -108,14 +108,16 @@ SpanPoles poles_of(const Surface& surface, std::uint32_t span, double size) {
   const ImageSpan& s = surface.span(span);
   const ImagePatch& p = surface.patch_of(span);
   SpanPoles poles;
-  if (s.iu == 0 && is_point(surface, span, kLowU, size))
+  if (s.iu == 0 && is_point(surface, span, kLowU, size)) {
     poles.u = PoleEnd::low;
-  else if (s.iu + 1 == p.spans_u && is_point(surface, span, kHighU, size))
+  } else if (s.iu + 1 == p.spans_u && is_point(surface, span, kHighU, size)) {
     poles.u = PoleEnd::high;
-  if (s.iv == 0 && is_point(surface, span, kLowV, size))
+  }
+  if (s.iv == 0 && is_point(surface, span, kLowV, size)) {
     poles.v = PoleEnd::low;
-  else if (s.iv + 1 == p.spans_v && is_point(surface, span, kHighV, size))
+  } else if (s.iv + 1 == p.spans_v && is_point(surface, span, kHighV, size)) {
     poles.v = PoleEnd::high;
+  }
   return poles;
 }
 
