@@ -11,7 +11,7 @@ enum class PointState : std::uint8_t {
   in = 1,        ///< within its tolerance
   out = 2,       ///< beyond it
   rejected = 3,  ///< left out of fit and judgement
-  undecided = 4  ///< guarded: nearer to its tolerance than its uncertainty
+  undecided = 4  ///< guarded: nearer to its tolerance than its uncertainty; always: far beyond an edge of the design
 };
 enum class Action : std::uint8_t { none = 0, cut = 1, weld = 2 };
 

@@ -97,7 +97,7 @@ void FootFinder::examine(const StoredPoint& point, const Pose& pose, Search sear
   if (search == Search::keep && tracked && !falls_over_seam(surface, m.projection)) return;
   ProjectionQuery query{m.r, pose.rotation * point.approach};
   const bool doubtful = !tracked || left_trim(point) || m.projection.fixed_u || m.projection.fixed_v ||
-                        !faces_probe(surface, m.projection, query.approach);
+                        m.projection.at_pole || !faces_probe(surface, m.projection, query.approach);
   // Distances change by no more than the point moves, so within half its margin no local minimum that was there can
   // have come nearer than the tracked foot. A newborn one could: refine() ends with a search of every foot.
   const bool far = search == Search::past_margin && 2.0 * (m.r - point.ranked_at).norm() >= point.runner_up.margin;
@@ -136,7 +136,7 @@ bool FootFinder::weigh_runner_up(const StoredPoint& point, const ProjectionQuery
   if (same_foot(other.at.s, m.projection.at.s)) {
     margin = margin_to_third;  // the two have become one
   } else if (margin < 0.0 && faces_probe(problem_.surface, other, query.approach)) {
-    if (other.fixed_u || other.fixed_v) return false;
+    if (other.fixed_u || other.fixed_v || other.at_pole) return false;
     margin = -margin;
     place = m.projection.place;
     m.projection = other;

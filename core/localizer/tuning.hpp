@@ -92,6 +92,9 @@ inline constexpr std::uint32_t kSeedPoints = 512;
 /// [L] A pose that moves by less than this does not make what was looked at before uncertain.
 inline constexpr double kPoseAtRest = 1e-7;
 
+/// [L] What lies farther than this beyond an outer edge is no longer end of the blade, but was probed where the design
+/// ends, as on a root fillet of which the face is not in the design.
+inline constexpr double kFarBeyond = 0.05;
 /// [L] A foot that is held to face its probe does so where the pose may move by this much before it averts itself.
 inline constexpr double kFacesBy = 1e-9;
 /// And its existence (existence_row.hpp) is kept above this: below, the foot moves ten times as far as its point.

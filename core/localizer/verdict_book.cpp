@@ -28,8 +28,9 @@ void VerdictBook::assign_region(StoredPoint& point) {
 }
 
 /// What the foot says of the point. Beyond an outer edge the design holds no surface: neither cut nor weld is proven
-/// there, and what lies between two outer edges that face each other, as on a blunt trailing edge, is not beyond. A
-/// point that counts in the fit is judged by its distance like any other.
+/// there, far beyond it not even that the blade is longer than the design, and what lies between two outer edges that
+/// face each other, as on a blunt trailing edge, is not beyond. A point that counts in the fit is judged by its
+/// distance like any other.
 VerdictBook::Finding VerdictBook::finding_of(const StoredPoint& point) const {
   const Foot& foot = point.foot;
   const double touching = tuning::kTouchingBound * problem_.frame.length, bound = point.tolerance + touching;
@@ -43,7 +44,8 @@ VerdictBook::Finding VerdictBook::finding_of(const StoredPoint& point) const {
   };
   if (point.outside_window) return {PointState::rejected, Action::none, LeftOut::window};
   if (foot.border == FootBorder::none || foot.border == FootBorder::joint) return with_action(judged(foot.distance));
-  if (foot.beyond > bound) return {judged(foot.beyond)};
+  const bool far = foot.beyond > tuning::kFarBeyond * problem_.frame.length;
+  if (foot.beyond > bound) return far ? Finding{PointState::undecided} : Finding{judged(foot.beyond)};
   // What is left of the distance at the end of a joint leads away from that.
   const double aside = std::sqrt(std::max(0.0, foot.distance * foot.distance - foot.beyond * foot.beyond));
   if (foot.border == FootBorder::joint_end && aside > bound) return with_action(judged(aside));

@@ -27,6 +27,11 @@ bool is_plausible(const PoseFit& fit, double scale_mm) {
   return fit.counted >= std::min(kLeastPoints, fit.points) && fit.typical_mm <= kPlausible * scale_mm;
 }
 
+bool is_plausible_in_frame(const PoseFit& fit, double scale_mm) {
+  return fit.counted >= std::min(kLeastPoints, fit.points) && 2 * fit.counted >= fit.points &&
+         fit.rms_mm <= kPlausible * scale_mm;
+}
+
 bool is_suspect(const PoseFit& fit, double scale_mm) {
   return fit.counted < std::min(kLeastPoints, fit.points) || fit.typical_mm > kSuspect * scale_mm;
 }

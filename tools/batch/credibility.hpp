@@ -16,6 +16,10 @@ namespace bladefit {
 /// the points within three hundredths.
 [[nodiscard]] bool is_plausible(const PoseFit& fit, double scale_mm);
 
+/// The same where the frame of the points is known, so that they cannot have slid beside the design: those beyond its
+/// edges were probed where it has no surface, and say nothing against the others, at least half of all.
+[[nodiscard]] bool is_plausible_in_frame(const PoseFit& fit, double scale_mm);
+
 /// Whether it is worth looking for a better pose: three quarters of them are not within some thousandths.
 [[nodiscard]] bool is_suspect(const PoseFit& fit, double scale_mm);
 

@@ -25,10 +25,17 @@ constexpr double kFarNearer = 0.5, kMirroredFarBetter = 0.4;
 
 bool are_too_few(const PoseFit& fitted) { return fitted.counted < kLeastWeighed && fitted.points < kFew; }
 
-std::vector<ProbePoint> mirrored(std::vector<ProbePoint> points) {
+constexpr const char* kMirroredText =
+    "the points fit the design when they are mirrored: an axis has the wrong sign, or the blade is of the other hand; "
+    "correct the signs of the columns, or take the other design";
+constexpr const char* kHeldText =
+    "the points do not come to lie on the design from this start, and locked degrees of freedom keep it; give a nearer "
+    "start, or leave --lock out";
+
+std::vector<ProbePoint> mirrored(std::vector<ProbePoint> points, std::size_t axis) {
   for (ProbePoint& point : points) {
-    point.position[0] = -point.position[0];
-    point.approach[0] = -point.approach[0];
+    point.position[axis] = -point.position[axis];
+    point.approach[axis] = -point.approach[axis];
   }
   return points;
 }
@@ -82,10 +89,7 @@ StartChoice WorldChecks::choose_start() {
   }
   if (plan_.localizer.locked == 0) return searched_start();
   choice.hopeless = true;
-  choice.findings.doubts.push_back(
-      {Reason::far_start,
-       "the points do not come to lie on the design from this start, and locked degrees of freedom "
-       "keep it; give a nearer start, or leave --lock out"});
+  choice.findings.doubts.push_back({Reason::far_start, kHeldText});
   return choice;
 }
 
@@ -151,21 +155,35 @@ std::optional<StartChoice> WorldChecks::better_start(const PoseFit& finished) {
 }
 
 bool WorldChecks::fits_mirrored(double best_mm) {
-  const std::vector<PoseFit> fits = search().poses_of(mirrored(points_));
+  const std::vector<PoseFit> fits = search().poses_of(mirrored(points_, 0));
   return !fits.empty() && is_credible(fits.front(), scale_mm_) &&
          fits.front().typical_mm < kMirroredFarBetter * best_mm;
+}
+
+/// What stands against a fit of which degrees of freedom are locked. The points are mirrored only where they then fit
+/// far better with the same locked, about any plane of their frame: where these were free, the mirror image of a few
+/// points of a thin blade fits easily, and tells nothing. Nor does one that fits the points inside of the edges less
+/// well.
+std::optional<VerdictReason> WorldChecks::explain_misfit_in_frame(const PoseFit& fitted) {
+  const bool plausible = is_plausible_in_frame(fitted, scale_mm_);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const PoseFit other = fit_locked_candidate(design_, plan_.localizer,
+                                               some_of(mirrored(points_, axis), kSearchPoints), plan_.localizer.start);
+    const bool far_better = is_credible(other, scale_mm_) && other.typical_mm < kMirroredFarBetter * fitted.typical_mm;
+    if (far_better && !(plausible && fitted.rms_mm < other.rms_mm))
+      return VerdictReason{Reason::mirrored, kMirroredText};
+  }
+  if (plausible) return std::nullopt;
+  if (const std::optional<UnitFound> unit = find_unit(search(), points_, fitted.typical_mm))
+    return VerdictReason{Reason::wrong_units, unit_sentence(*unit, plan_.points.unit)};
+  return VerdictReason{Reason::far_start, kHeldText};
 }
 
 /// The one sentence on points that fit nowhere as they are; `best_mm` is the typical distance of their best fit.
 VerdictReason WorldChecks::explain_misfit(double best_mm) {
   if (const std::optional<UnitFound> unit = find_unit(search(), points_, best_mm))
     return {Reason::wrong_units, unit_sentence(*unit, plan_.points.unit)};
-  if (fits_mirrored(best_mm)) {
-    return {
-        Reason::mirrored,
-        "the points fit the design when they are mirrored: an axis has the wrong sign, or the blade is of the other "
-        "hand; correct the signs of the columns, or take the other design"};
-  }
+  if (fits_mirrored(best_mm)) return {Reason::mirrored, kMirroredText};
   const std::string best = std::isfinite(best_mm)
                                ? fmt::format(" (at the best one a quarter of them is farther than {:.3g} {} from it)",
                                              best_mm / plan_.mm_per_unit, plan_.units)
@@ -210,7 +228,10 @@ Findings WorldChecks::findings_of(const PoseFit& finished, bool searched) {
   const PoseFit fitted = weighed(finished);
   Findings findings;
   if (are_too_few(fitted)) return findings;
-  if (!is_plausible(fitted, scale_mm_)) {
+  if (!is_plausible(fitted, scale_mm_) && plan_.localizer.locked != 0) {
+    if (std::optional<VerdictReason> reason = explain_misfit_in_frame(fitted))
+      findings.doubts.push_back(*std::move(reason));
+  } else if (!is_plausible(fitted, scale_mm_)) {
     const std::vector<PoseFit>& poses = found_poses();
     findings.doubts.push_back(
         explain_misfit(poses.empty() ? fitted.typical_mm : std::min(fitted.typical_mm, poses.front().typical_mm)));

@@ -51,6 +51,7 @@ class WorldChecks {
   [[nodiscard]] const std::vector<PoseFit>& found_poses();
   [[nodiscard]] const PoseSearch& search();
   [[nodiscard]] VerdictReason explain_misfit(double best_mm);
+  [[nodiscard]] std::optional<VerdictReason> explain_misfit_in_frame(const PoseFit& fitted);
   [[nodiscard]] bool fits_mirrored(double best_mm);
   void tell_rivals(const PoseFit& fitted, bool searched, Findings& findings);
   [[nodiscard]] bool moved_far(const Pose& pose) const;

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "tools/design/cad_library.hpp"
+#include "tools/design/nurbs/thin_spans.hpp"
 #include "tools/files/read_text.hpp"
 #include "tools/files/tool_error.hpp"
 
@@ -41,6 +44,22 @@ constexpr std::array<OtherKind, 18> kOtherKinds = {
      {".zip", "unpack it and give the STEP or IGES file in it"},
      {".stpx", "STEP in XML is not read: export the blade as STEP (.stp)"}}};
 
+/// Of the size of a surface: no place of it moves farther where thin spans are merged.
+constexpr double kMovedShare = 1e-6;
+
+/// A line where spans were merged; empty where none was.
+std::string merge_spans(NurbsSurface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : surface.control_points) box.extend(point);
+  const double tolerance = kMovedShare * box.diagonal().norm();
+  const MergedSpans merged = merge_thin_spans(surface, tolerance);
+  if (merged.count() == 0) return "";
+  return fmt::format(
+      "{}: {} hair-thin spans in u and {} in v merged with their neighbours, which moves the surface by at most {:.2g} "
+      "mm",
+      surface.name, merged.spans_u, merged.spans_v, merged.moved_mm);
+}
+
 DesignFile read_unchecked(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
   if (extension == ".igs" || extension == ".iges") return cad_library().read_iges(path);
@@ -59,6 +78,7 @@ DesignFile read_design(const std::filesystem::path& path) {
   for (NurbsSurface& surface : design.surfaces) {
     const std::vector<std::string> notes = check_surface(surface, path.string());
     design.warnings.insert(design.warnings.end(), notes.begin(), notes.end());
+    if (const std::string line = merge_spans(surface); !line.empty()) design.warnings.push_back(line);
   }
   return design;
 }

@@ -17,6 +17,7 @@ bool has_tolerance(const ResultPoint& point) { return std::isfinite(point.tolera
 /// What the points of a result came to.
 struct Counts {
   std::uint32_t out = 0, pending = 0, undecided = 0;
+  std::uint32_t beyond = 0;  ///< of the undecided: far beyond an edge of the design
   ZoneCount zones;
 };
 
@@ -32,7 +33,9 @@ Counts counts_of(const Result& result, const ToleranceMap& map) {
     if (point.state == PointState::out) ++counts.out;
     if (!has_tolerance(point)) continue;
     if (point.state == PointState::pending) ++counts.pending;
-    if (point.state == PointState::undecided) ++counts.undecided;
+    if (point.state != PointState::undecided) continue;
+    ++counts.undecided;
+    if (point.beyond > point.tolerance) ++counts.beyond;
   }
   return counts;
 }
@@ -113,6 +116,19 @@ std::string end_text(FitEnd ended) {
   return "check that design, units and start belong to these points, or fit with the mode least_squares";
 }
 
+std::string undecided_text(const Counts& counts) {
+  const std::string beyond = fmt::format(
+      "{} points lie far beyond the edge of the design, where it says nothing of them: add the face there (--face, "
+      "--design), or leave them out with --subset or --window",
+      counts.beyond);
+  if (counts.beyond == counts.undecided) return beyond;
+  const std::string near = fmt::format(
+      "{} points are nearer to their tolerance than the expanded uncertainty; measure them more accurately or probe "
+      "more points",
+      counts.undecided - counts.beyond);
+  return counts.beyond == 0 ? near : near + "; " + beyond;
+}
+
 /// What happened, and what to do.
 class Texts {
  public:
@@ -146,10 +162,7 @@ class Texts {
             "blade",
             counts_.pending);
       case Reason::undecided:
-        return fmt::format(
-            "{} points are nearer to their tolerance than the expanded uncertainty; measure them more accurately or "
-            "probe more points",
-            counts_.undecided);
+        return undecided_text(counts_);
       case Reason::unfinished:
         return "the session ended before the machine said that its program is finished; run it again with the same "
                "session folder to go on";

@@ -75,9 +75,10 @@ PoseFit measure_fit(const LocalizerConfig& config, const std::vector<ProbePoint>
   return fit;
 }
 
-PoseFit fit_candidate(const DesignImage& design, const LocalizerConfig& config, const std::vector<ProbePoint>& points,
-                      const Pose& start) {
-  const LocalizerConfig own = plain(config, start);
+namespace {
+
+PoseFit fit_with(const LocalizerConfig& own, const LocalizerConfig& config, const DesignImage& design,
+                 const std::vector<ProbePoint>& points) {
   OwnedLocalizer localizer(design, own, points.size());
   std::vector<ProbePoint> taken;
   for (const ProbePoint& point : points) {
@@ -93,6 +94,20 @@ PoseFit fit_candidate(const DesignImage& design, const LocalizerConfig& config, 
     if (!succeeded(localizer->verdict_of(taken[k].sequence, verdicts[k]))) verdicts[k].state = PointState::rejected;
   }
   return measure_fit(config, taken, localizer->fit(), verdicts);
+}
+
+}  // namespace
+
+PoseFit fit_candidate(const DesignImage& design, const LocalizerConfig& config, const std::vector<ProbePoint>& points,
+                      const Pose& start) {
+  return fit_with(plain(config, start), config, design, points);
+}
+
+PoseFit fit_locked_candidate(const DesignImage& design, const LocalizerConfig& config,
+                             const std::vector<ProbePoint>& points, const Pose& start) {
+  LocalizerConfig own = plain(config, start);
+  own.locked = config.locked;
+  return fit_with(own, config, design, points);
 }
 
 }  // namespace bladefit

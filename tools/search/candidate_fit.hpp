@@ -28,6 +28,10 @@ struct PoseFit {
 [[nodiscard]] PoseFit fit_candidate(const DesignImage& design, const LocalizerConfig& config,
                                     const std::vector<ProbePoint>& points, const Pose& start);
 
+/// The same with the degrees of freedom that `config` locks held at `start`.
+[[nodiscard]] PoseFit fit_locked_candidate(const DesignImage& design, const LocalizerConfig& config,
+                                           const std::vector<ProbePoint>& points, const Pose& start);
+
 /// How well the points of a finished fit lie: verdicts[i] is that of points[i].
 [[nodiscard]] PoseFit measure_fit(const LocalizerConfig& config, const std::vector<ProbePoint>& points,
                                   const FitReport& report, const std::vector<Verdict>& verdicts);

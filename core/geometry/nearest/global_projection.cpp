@@ -1,6 +1,7 @@
 #include "core/geometry/nearest/global_projection.hpp"
 
 #include <array>
+#include <span>
 
 #include "core/geometry/nearest/bounding_tree.hpp"
 #include "core/geometry/nearest/leaf_search.hpp"
@@ -35,6 +36,27 @@ class Pending {
   std::size_t size_ = 0;
 };
 
+/// Leaves and runs whose share of the pieces was used up before the nearest was found: with that they may be settled at
+/// once.
+class Unfinished {
+ public:
+  struct Entry {
+    std::uint32_t child;
+    double limit;  ///< of the search then [mm]
+  };
+  /// False where there is no room.
+  bool note(std::uint32_t child, double limit) {
+    if (size_ == entries_.size()) return false;
+    entries_[size_++] = {child, limit};
+    return true;
+  }
+  [[nodiscard]] std::span<const Entry> entries() const { return {entries_.data(), size_}; }
+
+ private:
+  std::array<Entry, 16> entries_;
+  std::size_t size_ = 0;
+};
+
 /// Depth first, the nearest child first.
 GlobalProjection search(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {
   NearestSoFar nearest(surface, query);
@@ -47,6 +69,14 @@ GlobalProjection search(const Surface& surface, const ProjectionQuery& query, co
   pending.push(nodes[0], boxes.squares(nodes[0]), threshold);
   std::uint32_t pieces = 0;
   bool exhausted = false;
+  const auto look_at = [&](std::uint32_t index) {
+    const std::uint32_t budget = kMaxPieces - pieces;
+    const LeafOutcome outcome = index < leaves ? search_leaf(surface, query, index, budget, nearest)
+                                               : search_run(surface, query.point, index - leaves, budget, nearest);
+    pieces += outcome.pieces;
+    return outcome;
+  };
+  Unfinished unfinished;
   while (!pending.empty() && pieces < kMaxPieces) {
     const auto [square, child] = pending.pop();
     if (!(square < threshold)) continue;
@@ -54,12 +84,13 @@ GlobalProjection search(const Surface& surface, const ProjectionQuery& query, co
       pending.push(nodes[child], boxes.squares(nodes[child]), threshold);
       continue;
     }
-    const std::uint32_t index = child & ~kLeafChild, budget = kMaxPieces - pieces;
-    const LeafOutcome outcome = index < leaves ? search_leaf(surface, query, index, budget, nearest)
-                                               : search_run(surface, query.point, index - leaves, budget, nearest);
-    pieces += outcome.pieces;
-    exhausted = exhausted || outcome.exhausted;
+    const std::uint32_t index = child & ~kLeafChild;
+    if (look_at(index).exhausted && !unfinished.note(index, nearest.limit())) exhausted = true;
     threshold = boxes.threshold(nearest.limit());
+  }
+  for (const auto& [index, limit] : unfinished.entries()) {
+    const bool nearer = nearest.limit() < limit && pieces < kMaxPieces;
+    if (!nearer || look_at(index).exhausted) exhausted = true;
   }
   return nearest.result(exhausted || !pending.empty(), pieces);
 }

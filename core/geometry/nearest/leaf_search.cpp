@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/geometry/nearest/collapsed_side.hpp"
 #include "core/geometry/nearest/distance_certificate.hpp"
 #include "core/geometry/nearest/leaf_bounds.hpp"
 
@@ -14,6 +15,8 @@ namespace {
 constexpr std::uint32_t kMaxCuts = 60;
 /// Pieces of one leaf: one that lies at a centre of curvature must not use up the others' share.
 constexpr std::uint32_t kMaxLeafPieces = 1024;
+/// A piece at a pole is cut off at this share of the extent at which all of it is one foot: it is not straight.
+constexpr double kFootShare = 1.0 / 32.0;
 
 struct Piece {
   LocalRect rect;
@@ -68,6 +71,7 @@ class LeafSearch {
 
   LeafOutcome search_pieces(const Piece& first, std::uint32_t budget) {
     LeafOutcome outcome;
+    poles_ = poles_of(surface_, index_, foot_size());
     std::array<Piece, kMaxCuts + 2> stack;
     std::size_t size = 0;
     stack[size++] = first;
@@ -100,9 +104,24 @@ class LeafSearch {
     const double bound = std::min(limit, range.most);
     const DistanceForm form(net_, query_.point, bound);
     if (bound == limit && form.farther(nearest_.slack() * (2.0 * bound + nearest_.slack()))) return Fate::settled;
+    if (poles_.any() && is_one_foot(piece.rect, range.least)) return Fate::settled;
     DerivativeRanges ranges = form.ranges();
     if (patch_.rational != 0) ranges = hull(ranges, DistanceForm(net_, query_.point, range.least).ranges());
     return decide(piece, prove(ranges, piece.shape()));
+  }
+
+  /// About a pole nothing is convex. There a piece that is so small that all of its minima are one foot is settled
+  /// where it is no nearer than the nearest; else it is a start, from which the nearest may be found.
+  bool is_one_foot(const LocalRect& rect, double least) {
+    if (extent_of(net_) > foot_size()) return false;
+    const Projection found = project_local(surface_, query_.point, start_in(rect));
+    nearest_.consider(found);
+    if (least < nearest_.least_that_matters()) return false;
+    Projection about = found;
+    about.place = start_in(rect);
+    about.at = surface_.evaluate(about.place);
+    nearest_.consider_possible(about, least);
+    return true;
   }
 
   /// settled: nothing in the piece can matter, or its only minimum was considered. shrunk: the piece was reduced to the
@@ -221,7 +240,7 @@ class LeafSearch {
            (p.fixed_v && goes_on(p.at.s_v, kEndsAtLowV, kEndsAtHighV));
   }
 
-  /// Halves the piece that net_ is of, across its longer side.
+  /// Cuts the piece that net_ is of across its longer side: in halves, or about a pole where pole_cut() says.
   void cut(const Piece& piece, Piece& first, Piece& second) const {
     const auto place = [](const Homogeneous& h) { return Vec3(h.head<3>() / h[3]); };
     const Vec3 a = place(net_.at(0, 0)), b = place(net_.at(net_.degree_u, 0)), c = place(net_.at(0, net_.degree_v)),
@@ -229,11 +248,20 @@ class LeafSearch {
     const bool along_u = (b - a).squaredNorm() + (d - c).squaredNorm() >= (c - a).squaredNorm() + (d - b).squaredNorm();
     first = second = {piece.rect, piece.cuts + 1};
     if (along_u) {
-      first.rect.s_max = second.rect.s_min = 0.5 * (piece.rect.s_min + piece.rect.s_max);
+      first.rect.s_max = second.rect.s_min = cut_between(piece.rect.s_min, piece.rect.s_max, poles_.u);
     } else {
-      first.rect.t_max = second.rect.t_min = 0.5 * (piece.rect.t_min + piece.rect.t_max);
+      first.rect.t_max = second.rect.t_min = cut_between(piece.rect.t_min, piece.rect.t_max, poles_.v);
     }
   }
+
+  [[nodiscard]] double cut_between(double low, double high, PoleEnd pole) const {
+    if (pole == PoleEnd::none) return 0.5 * (low + high);
+    const double share = kFootShare * foot_size() / extent_of(net_);
+    return pole == PoleEnd::low ? pole_cut(low, high, share) : 1.0 - pole_cut(1.0 - high, 1.0 - low, share);
+  }
+
+  /// Local minima this near to each other are one [mm].
+  [[nodiscard]] double foot_size() const { return kSameFoot * surface_.half_diagonal(); }
 
   const Surface& surface_;
   const ProjectionQuery& query_;
@@ -245,6 +273,7 @@ class LeafSearch {
   Vec3 arm_;  ///< the point in the frame of the leaf
   NearestSoFar& nearest_;
   BezierNet net_;  ///< of the piece in hand
+  SpanPoles poles_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/nearest/collapsed_side.hpp"
 #include "core/geometry/nearest/held_sides.hpp"
 #include "core/geometry/nearest/newton_walk.hpp"
 #include "core/geometry/surface/distance_quadratic.hpp"
@@ -15,6 +16,12 @@ namespace {
 constexpr int kMaxEvaluations = 60;
 /// A tangential offset below this [half diagonals] counts as perpendicular.
 constexpr double kPerpendicular = 1e-11;
+/// A last step that moves a parameter by more than this [spans], as it does about a pole, is evaluated.
+constexpr double kWideStep = 1e-3;
+/// What is nearer to a pole than this cannot be told from it [half diagonals].
+constexpr double kAboutPole = 1e-8;
+/// Where the distance is greatest at a pole, the first step away from it [spans].
+constexpr double kPoleStep = 1.0 / 16.0;
 
 struct Step {
   double du = 0, dv = 0;
@@ -68,16 +75,31 @@ class Descent {
   }
 
   Projection run() {
+    bool crossed = false;
     for (int evaluations = 1; evaluations < kMaxEvaluations;) {
       const DistanceQuadratic q = quadratic_of(result_.at, result_.offset);
       hold_at_limits(q);
+      if (const std::size_t side = pole_here(); side != kNoSide) {
+        if (leave_pole(side, evaluations)) continue;
+        rest_on_pole(side);
+        break;
+      }
       Step step = step_of(q, result_.fixed_u, result_.fixed_v);
       step = blocked(q, step);
       const double length = (result_.at.s_u * step.du + result_.at.s_v * step.dv).norm();
       if (length <= kLastStep * scale_) {
+        const std::uint32_t span = result_.place.span;
         finish(step);
-        result_.converged = step.newton;
-        break;
+        result_.at_pole = !step.newton && about_pole();
+        result_.converged = step.newton || result_.at_pole;
+        if (result_.place.span == span || crossed) break;
+        // It has left its span, which may be thinner than that step: what is beyond may fall on.
+        crossed = true;
+        result_.converged = result_.at_pole = false;
+        result_.at = surface_.evaluate(result_.place);
+        result_.offset = r_ - result_.at.s;
+        ++evaluations;
+        continue;
       }
       if (!descend(step, evaluations)) break;
     }
@@ -105,6 +127,43 @@ class Descent {
     const bool v = (p.v <= limits_.v_min && step.dv < 0.0) || (p.v >= limits_.v_max && step.dv > 0.0);
     if (!u && !v) return step;
     return step_of(q, u || result_.fixed_u, v || result_.fixed_v);
+  }
+
+  [[nodiscard]] std::size_t pole_here() const { return pole_side(surface_, result_.place, result_.at, kPole * scale_); }
+
+  /// Takes a step on the way on which the distance falls most; false where it falls on none: the pole is the minimum,
+  /// with the parameter of the way on which it rises least.
+  bool leave_pole(std::size_t side, int& evaluations) {
+    const PoleWay way =
+        steepest_from_pole(surface_, result_.place, side, result_.offset, limits_, kPerpendicular * scale_);
+    result_.place = way.place;
+    result_.at = surface_.evaluate(way.place);
+    result_.offset = r_ - result_.at.s;
+    if (!way.falls) return false;
+    const SpanDomain d = surface_.domain(way.place.span);
+    const bool along_v = is_along_v(side);
+    const double inward = is_high(side) ? -1.0 : 1.0;
+    const double width = inward * (along_v ? d.u_max - d.u_min : d.v_max - d.v_min);
+    const Vec3& tangent = along_v ? result_.at.s_u : result_.at.s_v;
+    const double least = std::max(0.0, inward * result_.offset.dot(tangent) / tangent.squaredNorm());
+    const double length = way.slope < -kPerpendicular * scale_ ? inward * least : kPoleStep * width;
+    return descend(along_v ? Step{length, 0.0} : Step{0.0, length}, evaluations);
+  }
+
+  /// So near to a pole that a minimum there cannot be told from the pole: Newton's method has no room to turn.
+  [[nodiscard]] bool about_pole() const {
+    const SpanPoles poles = poles_of(surface_, result_.place.span, kPole * scale_);
+    if (!poles.any()) return false;
+    SurfacePlace pole = result_.place;
+    if (poles.u != PoleEnd::none) pole.u = poles.u == PoleEnd::low ? 0.0 : 1.0;
+    if (poles.u == PoleEnd::none) pole.v = poles.v == PoleEnd::low ? 0.0 : 1.0;
+    return (surface_.evaluate(pole).s - result_.at.s).norm() <= kAboutPole * scale_;
+  }
+
+  void rest_on_pole(std::size_t side) {
+    hold_at_limits(quadratic_of(result_.at, result_.offset));
+    (is_along_v(side) ? result_.fixed_v : result_.fixed_u) = false;
+    result_.converged = result_.at_pole = true;
   }
 
   void move_to(SurfacePlace& place, double u, double v) const {
@@ -137,6 +196,12 @@ class Descent {
     const double u = result_.place.u, v = result_.place.v;
     move_to(result_.place, u + step.du, v + step.dv);
     const double du = result_.place.u - u, dv = result_.place.v - v;
+    const SpanDomain d = surface_.domain(result_.place.span);
+    if (std::abs(du) > kWideStep * (d.u_max - d.u_min) || std::abs(dv) > kWideStep * (d.v_max - d.v_min)) {
+      result_.at = surface_.evaluate(result_.place);
+      result_.offset = r_ - result_.at.s;
+      return;
+    }
     SurfacePoint& p = result_.at;
     p.s += du * p.s_u + dv * p.s_v;
     p.s_u += du * p.s_uu + dv * p.s_uv;

@@ -23,6 +23,7 @@ struct Projection {
   Vec3 offset = Vec3::Zero();             ///< r - q [mm]
   bool fixed_u = false, fixed_v = false;  ///< held at a limit, the distance falling beyond it
   bool converged = false;                 ///< false: the iteration cap was reached or the point is a saddle
+  bool at_pole = false;                   ///< on a side that is one point: it looked along the ways of its patch alone
   bool outside = false;                   ///< of the trim loops of its patch: no foot, the face is not there
   TrimHold trim;
   [[nodiscard]] bool on_trim() const { return trim.trim != TrimHold::kNone; }

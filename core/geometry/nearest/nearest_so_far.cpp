@@ -8,8 +8,6 @@ namespace {
 
 /// Answers are proven to within this [half diagonals].
 constexpr double kSlack = 1e-10;
-/// Local minima this near to each other are one [half diagonals].
-constexpr double kSameFoot = 1e-7;
 /// Where a runner-up is near, so may be a centre of curvature, about which minima are born: the two are relied on for
 /// this share of the margin only.
 constexpr double kShareOfTwo = 0.25;
@@ -49,6 +47,12 @@ void NearestSoFar::consider(const Projection& candidate) {
   nearest_ = candidate;
   distance_ = distance;
   found_ = true;
+}
+
+void NearestSoFar::consider_possible(const Projection& place, double least) {
+  if (found_ && same(place.at.s, nearest_.at.s)) return;
+  note_runner_up(place, least);
+  third_distance_ = std::min(third_distance_, least);
 }
 
 void NearestSoFar::note_runner_up(const Projection& candidate, double distance) {

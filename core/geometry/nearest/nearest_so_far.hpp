@@ -14,6 +14,10 @@ class NearestSoFar {
   /// loops, nor a place where Newton's method found no proper minimum: that is kept as a last resort.
   void consider(const Projection& candidate);
 
+  /// Takes into account that there may be a local minimum about `place`, no nearer than `least` [mm], which cannot be
+  /// told from its neighbours.
+  void consider_possible(const Projection& place, double least);
+
   [[nodiscard]] bool found() const { return found_; }
   [[nodiscard]] const Projection& nearest() const { return nearest_; }
   [[nodiscard]] double distance() const { return distance_; }
@@ -22,6 +26,8 @@ class NearestSoFar {
   [[nodiscard]] double slack() const { return slack_; }
   [[nodiscard]] bool directed() const { return directed_; }
 
+  /// What is not nearer than this is not nearer than the nearest [mm].
+  [[nodiscard]] double least_that_matters() const { return found_ ? distance_ - slack_ : kNowhere; }
   /// The outcome of a search that met everything nearer than limit().
   [[nodiscard]] GlobalProjection result(bool exhausted, std::uint32_t pieces) const;
 
@@ -39,6 +45,9 @@ class NearestSoFar {
   SurfacePlace runner_up_place_;
   Projection resort_;  ///< the nearest place that is not a proper minimum
 };
+
+/// Local minima this near to each other are one [half diagonals].
+inline constexpr double kSameFoot = 1e-7;
 
 /// A local minimum whose normal is this near to facing the probe [rad] may come to face it while the point is tracked.
 inline constexpr double kAlmostFacing = 0.05;

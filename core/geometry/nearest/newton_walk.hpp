@@ -8,6 +8,8 @@ namespace bladefit {
 inline constexpr double kLastStep = 1e-9;
 /// A distance may rise by this much [half diagonals] as rounding.
 inline constexpr double kDistanceRounding = 1e-13;
+/// A side of a patch that is not larger than this is one point [half diagonals].
+inline constexpr double kPole = 1e-10;
 
 /// Pure Newton steps for the foot of `r`, from span to span, in the parameters of each: the usual way, without the
 /// safeguards of project_local(), which takes over where they are needed.

@@ -39,6 +39,16 @@ TEST(VerdictAtEdge, FindsWhatLiesBeyondAnOuterEdgeOutWithNothingToDo) {
   EXPECT_EQ(desk.state(beyond_edge(kOnRest, 0.3, 0.21), false), PointState::pending);
 }
 
+/// So far from it that it need not be the end of the blade that was probed.
+TEST(VerdictAtEdge, LeavesOpenWhatLiesFarBeyondAnOuterEdge) {
+  Desk desk(1);
+  const double far = tuning::kFarBeyond * desk.problem.frame.length;
+  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 1.1 * far, 1.01 * far)), PointState::undecided);
+  EXPECT_EQ(desk.store[0].action, Action::none);
+  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 1.1 * far, 0.99 * far)), PointState::out);
+  EXPECT_EQ(desk.state(beyond_edge(kOnRest, 1.1 * far, 1.01 * far), false), PointState::pending);
+}
+
 TEST(VerdictAtEdge, DoesNotFindAPointBeyondAnEdgeOutWhereNoToleranceIsSet) {
   LocalizerConfig config = judged_config();
   config.tolerance.rest_mm = std::numeric_limits<double>::infinity();

@@ -161,6 +161,54 @@ TEST(WorldChecks, LockedDegreesOfFreedomAreNotSearched) {
   expect_undecided(fitted(points, plan), Reason::far_start, "--lock");
 }
 
+/// Locks that leave one degree of freedom.
+constexpr std::uint8_t kAllButTx = static_cast<std::uint8_t>(kLockAll & ~kLockTx);
+
+/// The blade without its inner part, which its root covers: points there are beyond the edge of the face.
+const CompiledDesign& trimmed_blade() {
+  static const CompiledDesign design = [] {
+    NurbsSurface blade = propeller_blade().surfaces.front();
+    const auto radius = [](const Eigen::Vector3d& point) { return std::hypot(point.y(), point.z()); };
+    const auto row = static_cast<std::size_t>(blade.v.control_points);
+    const double inner = radius(blade.control_points.front());
+    const bool along_u = radius(blade.control_points[blade.control_points.size() - row]) - inner > 20.0;
+    constexpr double kCut = 0.3;
+    blade.trims = {along_u ? TrimLoop{{kCut, 0, true}, {1, 0, true}, {1, 1, true}, {kCut, 1, true}}
+                           : TrimLoop{{0, kCut, true}, {1, kCut, true}, {1, 1, true}, {0, 1, true}}};
+    return CompiledDesign(write_image({blade}, DesignUnit::mm, propeller_blade().outward));
+  }();
+  return design;
+}
+
+/// A third of the points and more are off the face, the rest lie on it as they should: no other world is looked for
+/// among poses that the locked degrees of freedom do not have.
+TEST(WorldChecks, PointsBesideATrimmedFaceMirrorNothingWhereTheFrameIsKnown) {
+  FitPlan plan = judging_plan();
+  plan.localizer.locked = kAllButTx;
+  plan.localizer.start = fitted(blade_points()).pose;
+  const Result result = fit_points(trimmed_blade().image(), plan, blade_points(), "points.csv").result;
+  const auto beside = std::count_if(result.points.begin(), result.points.end(),
+                                    [](const ResultPoint& p) { return p.kind != FootKind::interior; });
+  EXPECT_GT(4 * static_cast<std::size_t>(beside), result.points.size());
+  EXPECT_LT(2 * static_cast<std::size_t>(beside), result.points.size());
+  EXPECT_TRUE(result.verdict.fit_decided()) << result.verdict.reasons.front().text;
+  for (const ResultPoint& point : result.points) {
+    if (point.kind == FootKind::interior) EXPECT_EQ(point.state, PointState::in);
+  }
+}
+
+TEST(WorldChecks, MirroredPointsAreNamedWhereTheFrameIsKnown) {
+  FitPlan plan = judging_plan();
+  plan.localizer.locked = kAllButTx;
+  const Pose pose = fitted(blade_points()).pose;
+  for (int axis = 1; axis < 3; ++axis) {
+    Mat3 mirror = Mat3::Identity();
+    mirror(axis, axis) = -1.0;
+    const std::vector<ProbePoint> aligned = mapped(blade_points(), pose.rotation, pose.translation);
+    expect_undecided(fitted(mapped(aligned, mirror, Vec3::Zero()), plan), Reason::mirrored, "mirrored");
+  }
+}
+
 /// Three blades, one a patch.
 const CompiledDesign& propeller() {
   static const CompiledDesign design = [] {

@@ -140,7 +140,8 @@ Derivatives<Value> stretched(const double (&stretch)[3], const AcrossS& across, 
           beta * t + gamma * s};
 }
 
-/// The frame: normal, direction of Ss, and the third; the coordinate axes where the parametrisation is degenerate.
+/// The frame: normal, direction of Ss, or of St where the leaf is hair-thin and lies along that, and the third; the
+/// coordinate axes where the parametrisation is degenerate.
 void set_frame(const SurfacePoint& middle, ImageBounds& bounds) {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   bounds.stretch[0] = bounds.stretch[1] = 1.0;
@@ -152,6 +153,10 @@ void set_frame(const SurfacePoint& middle, ImageBounds& bounds) {
     axes.row(1) = along;
     axes.row(2) = normal.normalized().cross(along);
     const Vec3 across = axes.row(2);
+    if (middle.s_v.norm() > kHairThin * middle.s_u.norm()) {
+      axes.row(1) = middle.s_v.normalized();
+      axes.row(2) = normal.normalized().cross(middle.s_v.normalized());
+    }
     bounds.stretch[0] = 1.0 / middle.s_u.norm();
     bounds.stretch[1] = 1.0 / across.dot(middle.s_v);
     bounds.stretch[2] = -bounds.stretch[0] * bounds.stretch[1] * along.dot(middle.s_v);

@@ -5,6 +5,9 @@
 
 namespace bladefit {
 
+/// A leaf is hair-thin where it is so many times longer than wide, as between knots that all but coincide.
+inline constexpr double kHairThin = 1000.0;
+
 /// Bounds of a rectangle of a Bezier span. Never too narrow: the
 /// rectangle is cut into pieces, on each of which the control points bound the homogeneous derivatives, and interval
 /// arithmetic carries them through the quotient rule. Cost: four restricted nets and their differences.

@@ -48,19 +48,30 @@ class Subdivision {
     return c;
   }
 
-  /// Halves across s or across t, whichever leaves the worse half better off.
+  /// Halves across s or across t, whichever leaves the worse half better off; a hair-thin one along its length, since
+  /// what is as long as the blade has no tight box.
   [[nodiscard]] std::array<Candidate, 2> halves(const Candidate& whole) const {
-    LocalRect low = whole.rect, high = whole.rect;
-    low.s_max = high.s_min = 0.5 * (whole.rect.s_min + whole.rect.s_max);
-    const std::array<Candidate, 2> across_s{candidate(low, whole.cuts + 1), candidate(high, whole.cuts + 1)};
-    low = high = whole.rect;
-    low.t_max = high.t_min = 0.5 * (whole.rect.t_min + whole.rect.t_max);
-    const std::array<Candidate, 2> across_t{candidate(low, whole.cuts + 1), candidate(high, whole.cuts + 1)};
+    const ImageBounds& b = whole.bounds;
+    const double along_s = Vec3(b.derivative[0]).norm(), along_t = Vec3(b.derivative[1]).norm();
+    if (along_s > kHairThin * along_t) return halves_across_s(whole);
+    if (along_t > kHairThin * along_s) return halves_across_t(whole);
+    const std::array<Candidate, 2> across_s = halves_across_s(whole), across_t = halves_across_t(whole);
     const auto worse = [](const std::array<Candidate, 2>& c) { return std::min(c[0].convex, c[1].convex); };
     return worse(across_s) >= worse(across_t) ? across_s : across_t;
   }
 
  private:
+  [[nodiscard]] std::array<Candidate, 2> halves_across_s(const Candidate& whole) const {
+    LocalRect low = whole.rect, high = whole.rect;
+    low.s_max = high.s_min = 0.5 * (whole.rect.s_min + whole.rect.s_max);
+    return {candidate(low, whole.cuts + 1), candidate(high, whole.cuts + 1)};
+  }
+  [[nodiscard]] std::array<Candidate, 2> halves_across_t(const Candidate& whole) const {
+    LocalRect low = whole.rect, high = whole.rect;
+    low.t_max = high.t_min = 0.5 * (whole.rect.t_min + whole.rect.t_max);
+    return {candidate(low, whole.cuts + 1), candidate(high, whole.cuts + 1)};
+  }
+
   BezierSpan span_;
   double near_;
 };
