@@ -127,6 +127,11 @@ const toml::node* TableReader::find(std::string_view key) {
 
 bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
 
+bool TableReader::has_text(std::string_view key) {
+  const toml::node* node = find(key);
+  return node != nullptr && node->is_string();
+}
+
 bool TableReader::says_absent(std::string_view key) {
   const toml::node* node = find(key);
   return node != nullptr && node->is_boolean() && !node->as_boolean()->get();

@@ -214,9 +214,14 @@ void add_session_options(CLI::App& command, RunFlags& flags) {
   command.add_option_function<double>(
       "--until-idle", [&session](double value) { session.until_idle = value; },
       "end when the program is finished or no new point came for so many seconds");
-  command.add_option("--plan", flags.plan,
-                     "how many points will come, or a CSV file of those that the program will probe: the panel then "
-                     "says how far it is");
+  command.add_option_function<std::string>(
+      "--plan",
+      [&session](const std::string& text) {
+        if (const Failure failure = parse_point_plan(text, session.plan.emplace()))
+          throw ToolError("--plan " + failure.message);
+      },
+      "how many points will come, or a CSV file of those that the program will probe: the panel then "
+      "says how far it is");
   command.add_option("--json", flags.json, "write a copy of result.json here; - writes it to standard output");
 }
 

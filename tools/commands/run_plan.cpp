@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -38,6 +37,7 @@ SessionSettings merged_session(const RunFlags& flags) {
   over(session.session, flags.session.session);
   over(session.until_idle, flags.session.until_idle);
   over(session.headless, flags.session.headless);
+  over(session.plan, flags.session.plan);
   session.fit = merged(flags.session.fit, session.fit);
   return session;
 }
@@ -100,15 +100,10 @@ std::chrono::milliseconds idle_of(const SessionSettings& session) {
   return std::chrono::milliseconds(std::llround(seconds * kMillisecondsPerSecond));
 }
 
-/// The number of points that will come: as it is given, or counted in a file of points.
-std::uint32_t planned_points(const std::string& plan, const PointsFormat& format) {
-  if (plan.empty()) return 0;
-  std::uint32_t count = 0;
-  const auto [end, error] = std::from_chars(plan.data(), plan.data() + plan.size(), count);
-  if (end == plan.data() + plan.size() && error == std::errc() && count > 0) return count;
-  if (end != plan.data() && end == plan.data() + plan.size())
-    throw ToolError(fmt::format("--plan {}: give a number of points from 1 to 4294967295, or a file of points", plan));
-  const PointsFile file = read_points_csv(plan, format);
+/// The number of points that will come: as it is given, or counted in a file of points; 0 = nothing says.
+std::uint32_t planned_points(const PointPlan& plan, const PointsFormat& format) {
+  if (plan.file.empty()) return plan.count;
+  const PointsFile file = read_points_csv(plan.file, format);
   if (file.error) throw ToolError(file.error);
   return static_cast<std::uint32_t>(file.points.size());
 }
@@ -122,11 +117,12 @@ void check_outputs(const RunFlags& flags, const SessionSettings& session, const 
   refuse_overwriting(copy, "settings of the session", folder / kSettingsFile);
   refuse_overwriting(copy, "verdicts of the session", folder / kVerdictsFile);
   const auto* const replay = std::get_if<ReplaySettings>(&plan.source);
-  const std::array<std::pair<const char*, std::string>, 5> inputs{
+  const std::array<std::pair<const char*, std::string>, 6> inputs{
       {{"design", session.design.value_or("")},
        {"session file", flags.config},
        {"device file", session.device.value_or("")},
        {"start pairs", start_file_of(session.fit)},
+       {"planned points", session.plan.value_or(PointPlan{}).file},
        {"recording", replay != nullptr ? replay->file : ""}}};
   for (const auto& [what, input] : inputs) {
     refuse_overwriting(copy, what, input);
@@ -164,7 +160,7 @@ RunPlan plan_run(const RunFlags& flags) {
   plan.host.panel = plan_panel(session.panel, flags.panel);
   plan.linger = std::chrono::milliseconds(std::llround(session.panel.linger.value_or(0) * kMillisecondsPerSecond));
   plan.host.idle = idle_of(session);
-  plan.host.planned = planned_points(flags.plan, plan.fit.points);
+  plan.host.planned = planned_points(session.plan.value_or(PointPlan{}), plan.fit.points);
   const bool recording = std::holds_alternative<ReplaySettings>(plan.source);
   plan.host.end_when_finished = recording || plan.headless || session.until_idle.has_value();
   check_outputs(flags, session, plan);
