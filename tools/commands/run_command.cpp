@@ -216,8 +216,8 @@ void add_session_options(CLI::App& command, RunFlags& flags) {
       "end when the program is finished or no new point came for so many seconds");
   command.add_option_function<std::string>(
       "--plan",
-      [&session](const std::string& text) {
-        if (const Failure failure = parse_point_plan(text, session.plan.emplace()))
+      [&session](const std::string& plan) {
+        if (const Failure failure = parse_point_plan(plan, session.plan.emplace()))
           throw ToolError("--plan " + failure.message);
       },
       "how many points will come, or a CSV file of those that the program will probe: the panel then "
