@@ -188,11 +188,12 @@ BladeEvidence evidence_of(const Result& result, const Counts& counts, const Loca
 }
 
 void take_back_judgement(Result& result) {
-  for (ResultPoint& point : result.points) {
-    if (point.state == PointState::rejected) continue;
+  result.points.change_each([](ResultPoint point) {
+    if (point.state == PointState::rejected) return point;
     point.state = PointState::pending;
     point.action = Action::none;
-  }
+    return point;
+  });
 }
 
 }  // namespace

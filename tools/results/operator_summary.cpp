@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <string_view>
 
 #include "tools/results/words.hpp"
@@ -30,32 +32,34 @@ std::string_view what_to_do(const ResultPoint& point) {
 
 std::string region_line(const Result& result, Region region, const char* name) {
   std::size_t out = 0;
-  const ResultPoint* worst = nullptr;
+  std::optional<ResultPoint> worst;
   for (const ResultPoint& point : result.points) {
     if (point.region != region || point.state != PointState::out) continue;
     ++out;
-    if (worst == nullptr || std::abs(point.distance) > std::abs(worst->distance)) worst = &point;
+    if (!worst || std::abs(point.distance) > std::abs(worst->distance)) worst = point;
   }
-  if (worst == nullptr) return fmt::format("no {} point out\n", name);
+  if (!worst) return fmt::format("no {} point out\n", name);
   return fmt::format("{} {} {} out; worst {}, {}\n", out, name, out == 1 ? "point" : "points", where(result, *worst),
                      what_to_do(*worst));
 }
 
 std::string worst_list(const Result& result) {
-  std::vector<const ResultPoint*> out;
+  std::vector<ResultPoint> worst;  // the worst ones first; of points that are as bad, the earlier
+  std::size_t out = 0;
   for (const ResultPoint& point : result.points) {
-    if (point.state == PointState::out && point.region == Region::leading_edge) out.push_back(&point);
+    if (point.state != PointState::out || point.region != Region::leading_edge) continue;
+    ++out;
+    const auto place = std::ranges::upper_bound(worst, std::abs(point.distance), std::greater(),
+                                                [](const ResultPoint& p) { return std::abs(p.distance); });
+    worst.insert(place, point);
+    if (worst.size() > kListed) worst.pop_back();
   }
-  std::stable_sort(out.begin(), out.end(), [](const ResultPoint* a, const ResultPoint* b) {
-    return std::abs(a->distance) > std::abs(b->distance);
-  });
   std::string text;
-  for (std::size_t k = 0; k < std::min(out.size(), kListed); ++k) {
-    const ResultPoint& point = *out[k];
+  for (const ResultPoint& point : worst) {
     text += fmt::format("  point {:>5}  {:<4}  {}  (patch {}, u {:.4f}, v {:.4f})\n", point.sequence,
                         word_of(point.action), where(result, point), point.patch, point.u, point.v);
   }
-  if (out.size() > kListed) text += fmt::format("  and {} more\n", out.size() - kListed);
+  if (out > kListed) text += fmt::format("  and {} more\n", out - kListed);
   return text;
 }
 
