@@ -51,10 +51,16 @@ SourceSettings plan_source(const SessionSettings& session, const FitSettings& fl
   if (session.source) {
     if (const Failure failure = apply_source_uri(*session.source, source)) throw ToolError(failure);
   }
-  if (protocol_of(source) == nullptr) {
+  const SourceProtocol* const protocol = protocol_of(source);
+  if (protocol == nullptr) {
     throw ToolError(
         "no source is given; name one with --source, for example modbus-tcp://192.168.0.10:502, or in the "
         "session file");
+  }
+  if (const std::string place = protocol->place(source); place.empty() || place.starts_with("//:")) {
+    throw ToolError(fmt::format("{}: it does not say where the machine is; write it there, or name it with --source{}",
+                                session.device.value_or("source"),
+                                protocol->form.empty() ? std::string() : fmt::format(" {}", protocol->form)));
   }
   auto* const replay = std::get_if<ReplaySettings>(&source);
   if (replay != nullptr) {

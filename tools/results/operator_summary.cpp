@@ -16,6 +16,11 @@ namespace {
 
 constexpr std::size_t kListed = 10;
 
+/// How a list goes on of which kListed are told.
+std::string and_more(std::size_t count) {
+  return count > kListed ? fmt::format(" and {} more", count - kListed) : std::string();
+}
+
 /// Lengths of a result as the operator reads them.
 std::string length(const Result& result, double mm) {
   return fmt::format("{:.6g} {}", result.in_units(mm), result.units);
@@ -59,11 +64,10 @@ std::string worst_list(const Result& result) {
     text += fmt::format("  point {:>5}  {:<4}  {}  (patch {}, u {:.4f}, v {:.4f})\n", point.sequence,
                         word_of(point.action), where(result, point), point.patch, point.u, point.v);
   }
-  if (out > kListed) text += fmt::format("  and {} more\n", out - kListed);
-  return text;
+  return out > kListed ? text + " " + and_more(out) + "\n" : text;
 }
 
-/// "3 suspected outliers (beyond 3.9 sigma, sigma = 0.01 mm): 18 (+3.001 mm, +20.1) ..."
+/// "3 suspected outliers (beyond 3.9 sigma, sigma = 0.01 mm): 18 (+3.001 mm, +20.1) and 2 more"
 std::string outlier_line(const Result& result) {
   const Outliers& outliers = result.outliers;
   if (outliers.points.empty()) return "";
@@ -75,10 +79,10 @@ std::string outlier_line(const Result& result) {
     text += fmt::format("{} {} ({:+.3f} {}, {:+.1f})", k == 0 ? "" : ",", p.sequence, result.in_units(p.distance),
                         result.units, p.studentized);
   }
-  return text + (outliers.points.size() > kListed ? " ...\n" : "\n");
+  return text + and_more(outliers.points.size()) + "\n";
 }
 
-/// "A robust fit judges 34 points otherwise: 12, 13 ...".
+/// "A robust fit judges 34 points otherwise: 12, 13 and 32 more".
 std::string robust_line(const Result& result) {
   const std::vector<std::uint32_t>& points = result.judged_otherwise;
   if (points.empty()) return "";
@@ -87,7 +91,7 @@ std::string robust_line(const Result& result) {
       "A robust fit judges {} {} otherwise: {}{}; defects that lie together draw a least-squares fit towards "
       "themselves: compare with --loss tukey\n",
       points.size(), points.size() == 1 ? "point" : "points", fmt::join(points.begin(), points.begin() + told, ", "),
-      points.size() > kListed ? " ..." : "");
+      and_more(points.size()));
 }
 
 /// Settings that a reader of the figures must know, and the points that do not belong to the others.

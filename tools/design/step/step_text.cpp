@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tools/design/step/step_references.hpp"
+#include "tools/design/step/step_words.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -55,7 +56,7 @@ class TokenScanner {
     if (c == '/' && next == '*') return skip_past("*/", "comment");
     if (c == '.' && is_word_start(next)) return skip_past(".", "enumeration");
     if (c == '#') return take_instance();
-    if (is_word_start(c)) return take_while(is_word, 0);
+    if (is_word_start(c)) return take_word();
     if (is_digit(c) || c == '-' || c == '+' || c == '.') return take_number();
     count_parentheses(c);
     if (c == '=' && depth_ == 0 && last_instance_ != 0) references_.define(last_instance_, line_);
@@ -68,6 +69,13 @@ class TokenScanner {
     if (c == '(' && ++depth_ > kMaxDepth) fail(fmt::format("more than {} parentheses inside each other", kMaxDepth));
     if (c == ')') --depth_;
     if (depth_ < 0 || (c == ';' && depth_ != 0)) fail("parentheses do not match in the statement that ends here");
+  }
+
+  void take_word() {
+    const std::size_t first = place_;
+    take_while(is_word, 0);
+    const std::string fault = step_word_fault(text_.substr(first, place_ - first), text_.substr(place_));
+    if (!fault.empty()) fail(fault);
   }
 
   template <class Belongs>
