@@ -45,6 +45,13 @@ std::size_t line_of_deep_key(std::string_view text) {
   return 0;
 }
 
+/// What is wrong, without the middle of what it cites where that is long: the way out stands at the end.
+std::string told(const std::string& what) {
+  constexpr std::size_t kFront = 60, kBack = 130;
+  if (what.size() <= kFront + kBack) return what;
+  return what.substr(0, kFront) + "..." + what.substr(what.size() - kBack);
+}
+
 std::string joined(const std::vector<std::string>& words) {
   constexpr std::size_t kListed = 12;
   const std::size_t listed = std::min(words.size(), kListed);
@@ -116,7 +123,8 @@ void TableReader::fail(std::string_view key, const std::string& what) {
   if (document_->error) return;
   const toml::node* node = table_->get(key);
   const toml::source_position place = node == nullptr ? table_->source().begin : node->source().begin;
-  document_->error = bad_input(fmt::format("{}:{}: key '{}': {}", document_->name, place.line, full_name(key), what));
+  document_->error =
+      bad_input(fmt::format("{}:{}: key '{}': {}", document_->name, place.line, full_name(key), told(what)));
 }
 
 /// The value of a key; null where it is absent or an error was found before.

@@ -18,7 +18,7 @@
 namespace bladefit::fuzz {
 namespace {
 
-/// What a text is made into is taken without a change by the reader that made it.
+/// What a text is made into is taken by the reader that made it, and is then left as it is.
 template <typename Clean>
 Answer read_cad_text(std::string_view bytes, const Clean& clean) {
   std::string text;
@@ -29,7 +29,8 @@ Answer read_cad_text(std::string_view bytes, const Clean& clean) {
     return {error.what(), broken_words(error.what())};
   }
   try {
-    return {"", clean(text) == text ? "" : "what was put right is put right once more"};
+    const std::string again = clean(text);
+    return {"", clean(again) == again ? "" : "what was put right twice is put right once more"};
   } catch (const ToolError& error) {
     return {"", std::string("what was put right is refused: ") + error.what()};
   }

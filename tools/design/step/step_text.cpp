@@ -20,6 +20,7 @@ constexpr std::string_view kLast = "END-ISO-10303-21;";
 constexpr std::string_view kBlank{" \t\r\n\f\v\x1a\0", 8};
 /// Parentheses inside each other: real files have less than ten, and the library's parser needs memory for each.
 constexpr int kMaxDepth = 100;
+constexpr std::size_t kQuoted = 40;
 
 std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
@@ -92,7 +93,9 @@ class TokenScanner {
     const auto [stop, error] = std::from_chars(text_.data() + first, text_.data() + place_, number);
     const bool fits = error == std::errc() && number <= std::uint32_t{std::numeric_limits<std::int32_t>::max()};
     if (place_ == first) return;
-    if (!fits) fail(fmt::format("#{} is no number that an instance can have", text_.substr(first, place_ - first)));
+    if (!fits)
+      fail(fmt::format("#{} is no number that an instance can have",
+                       text_.substr(first, std::min(place_ - first, kQuoted))));
     if (depth_ == 0) {
       last_instance_ = number;
     } else {
@@ -109,7 +112,7 @@ class TokenScanner {
     double value = 0;
     const auto [stop, error] = std::from_chars(begin, end, value);
     if (error != std::errc() || stop != end || !std::isfinite(value)) {
-      fail(fmt::format("\"{}\" is not a finite number", word));
+      fail(fmt::format("\"{}\" is not a finite number", word.substr(0, kQuoted)));
     }
     const std::size_t exponent = word.find_first_of("eE");
     if (exponent == std::string_view::npos) return;

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 28> kNames = {
     ".STERADIAN.",      ".HERTZ.",     ".NEWTON.",  ".PASCAL.", ".JOULE.",  ".WATT.",  ".COULOMB.", ".VOLT.",
     ".FARAD.",          ".OHM.",       ".SIEMENS.", ".WEBER.",  ".TESLA.",  ".HENRY.", ".LUMEN.",   ".LUX.",
     ".DEGREE_CELSIUS.", ".BECQUEREL.", ".GRAY.",    ".SIEVERT."};
-constexpr std::size_t kQuoted = 40;
+constexpr std::size_t kShownOfUnit = 40;
 /// Bytes behind a word, so that the cost of a text stays linear.
 constexpr std::size_t kLookedAt = 4096;
 
@@ -58,8 +58,8 @@ std::string unit_fault(std::string_view rest) {
   const auto none_of = [](const auto& words, const std::string& word) {
     return std::ranges::find(words, word) == words.end();
   };
-  if (none_of(kPrefixes, prefix)) return fmt::format("'{}' is no prefix of a unit", prefix.substr(0, kQuoted));
-  return none_of(kNames, name) ? fmt::format("'{}' is no unit", name.substr(0, kQuoted)) : "";
+  if (none_of(kPrefixes, prefix)) return fmt::format("'{}' is no prefix of a unit", prefix.substr(0, kShownOfUnit));
+  return none_of(kNames, name) ? fmt::format("'{}' is no unit", name.substr(0, kShownOfUnit)) : "";
 }
 
 }  // namespace
