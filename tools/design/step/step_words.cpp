@@ -42,7 +42,7 @@ std::size_t numbers_of(std::string_view rest) {
   return 0;
 }
 
-std::string without_blanks(std::string_view text) {
+std::string closed_up(std::string_view text) {
   std::string out;
   std::ranges::copy_if(text, std::back_inserter(out), [](char c) { return c > ' '; });
   return out;
@@ -50,7 +50,7 @@ std::string without_blanks(std::string_view text) {
 
 /// "(.MILLI.,.METRE.)", or "(*,.MILLI.,.METRE.)" where the unit is an entity of its own.
 std::string unit_fault(std::string_view rest) {
-  std::string list = without_blanks(rest.substr(0, std::min(rest.find(')'), rest.size())));
+  std::string list = closed_up(rest.substr(0, std::min(rest.find(')'), rest.size())));
   if (!list.starts_with('(')) return "";
   list.erase(0, list.starts_with("(*,") ? 3 : 1);
   const std::size_t comma = std::min(list.find(','), list.size());
