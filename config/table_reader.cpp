@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
 
 #include "config/toml_error.hpp"
+#include "config/toml_guard.hpp"
 #include "drivers/text/read_file.hpp"
 
 namespace bladefit {
@@ -24,25 +24,6 @@ std::string type_name(const toml::node& node) {
   if (node.is_array()) return "a list";
   if (node.is_table()) return "a table";
   return "a date or time";
-}
-
-constexpr std::size_t kDeepestKey = 32;
-
-/// The first line with a key of more parts than any here has, such as a.a.a.a ..., or 0. The parser would nest a table
-/// for each.
-std::size_t line_of_deep_key(std::string_view text) {
-  constexpr std::string_view kOfKeys = "-_\"' \t";
-  std::size_t line = 1, dots = 0;
-  for (const char c : text) {
-    line += c == '\n' ? 1 : 0;
-    const bool letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (c == '.') {
-      if (++dots >= kDeepestKey) return line;
-    } else if (!letter && kOfKeys.find(c) == std::string_view::npos) {
-      dots = 0;
-    }
-  }
-  return 0;
 }
 
 /// What is wrong, without the middle of what it cites where that is long: the way out stands at the end.
@@ -99,9 +80,8 @@ TomlDocument read_toml(const std::string& path) {
     document.error = {failure.kind, fmt::format("{}: {}", path, failure.message)};
     return document;
   }
-  if (const std::size_t line = line_of_deep_key(text); line != 0) {
-    document.error = bad_input(
-        fmt::format("{}:{}: a key of {} parts or more; no key here has so many, correct it", path, line, kDeepestKey));
+  if (const std::string fault = toml_text_fault(text); !fault.empty()) {
+    document.error = bad_input(fmt::format("{}:{}", path, fault));
     return document;
   }
   try {

@@ -108,6 +108,8 @@ const std::vector<BadInput>& bad_machines() {
       run_with("an endless recording", {"--source", "replay:/dev/zero"}, "/dev/zero: is a device, no file"),
       run_with("a panel without a port", {"--source", "replay:a.csv", "--panel", "127.0.0.1"}, "a.csv: no such file"),
       run_with("a plan that is no count", {"--source", "replay:a.csv", "--plan", "1e3"}, "--plan '1e3': give a number"),
+      run_with("standard input for two", {"--source", "replay:-", "--plan", "-"},
+               "--plan -: the recording is read from standard input too"),
       run_with("an option given twice", {"--source", "replay:a.csv", "--panel", "a:1", "--panel", "b:1"},
                "--panel: is given more than once; give it once"),
       device_file("no host in a device file", "kind = \"modbus-tcp\"\n",

@@ -86,6 +86,15 @@ PanelServerSettings plan_panel(const PanelSettings& file, const std::string& fla
   return panel;
 }
 
+/// Standard input can be read once.
+void check_standard_input(const SourceSettings& source, const std::string& plan_file) {
+  const auto* const replay = std::get_if<ReplaySettings>(&source);
+  if (replay == nullptr || replay->file != "-" || plan_file != "-") return;
+  throw ToolError(
+      "--plan -: the recording is read from standard input too; name a file for one of them, or leave the plan "
+      "out: a recording says how many points come");
+}
+
 /// A recording is read before the session begins: what is wrong with it is said at once, and what of it is not used.
 void check_recording(const SourceSettings& source, FitPlan& plan) {
   const auto* const replay = std::get_if<ReplaySettings>(&source);
@@ -156,6 +165,7 @@ RunPlan plan_run(const RunFlags& flags) {
   }
   if (session.capacity) plan.fit.localizer.capacity = *session.capacity;
   plan.source = plan_source(session, flags.session.fit, plan.fit.points);
+  check_standard_input(plan.source, session.plan.value_or(PointPlan{}).file);
   check_recording(plan.source, plan.fit);
   plan.json = flags.json;
   // The screen would mix with the result.

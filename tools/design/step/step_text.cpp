@@ -93,9 +93,10 @@ class TokenScanner {
     const auto [stop, error] = std::from_chars(text_.data() + first, text_.data() + place_, number);
     const bool fits = error == std::errc() && number <= std::uint32_t{std::numeric_limits<std::int32_t>::max()};
     if (place_ == first) return;
-    if (!fits)
+    if (!fits) {
       fail(fmt::format("#{} is no number that an instance can have",
                        text_.substr(first, std::min(place_ - first, kQuoted))));
+    }
     if (depth_ == 0) {
       last_instance_ = number;
     } else {
