@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string>
 
 namespace bladefit {
 namespace {
@@ -57,6 +58,39 @@ std::size_t line_of_nameless_header(std::string_view text) {
   return 0;
 }
 
+/// The place behind the text in quotes that begins at `place`; on one line, or over several where three quotes begin
+/// it.
+std::size_t behind_quotes(std::string_view text, std::size_t place) {
+  const char quote = text[place];
+  const std::string three(3, quote);
+  const bool lines = text.substr(place, 3) == three;
+  std::size_t at = place + (lines ? 3 : 1);
+  while (at < text.size()) {
+    if (lines ? text.substr(at, 3) == three : text[at] == quote) return at + (lines ? 3 : 1);
+    if (!lines && text[at] == '\n') return at;
+    at += quote == '"' && text[at] == '\\' ? 2 : 1;
+  }
+  return text.size();
+}
+
+/// The first line with a byte beyond ASCII outside of quotes and comments; 0 = there is none. The parser's table of
+/// blanks has no answer for some of those letters.
+std::size_t line_of_foreign_letter(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::size_t place = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  while (place < text.size()) {
+    const char c = text[place];
+    if (static_cast<unsigned char>(c) >= 0x80)
+      return 1 + static_cast<std::size_t>(std::ranges::count(text.substr(0, place), '\n'));
+    if (c == '"' || c == '\'') {
+      place = behind_quotes(text, place);
+    } else {
+      place = c == '#' ? std::min(text.find('\n', place), text.size()) : place + 1;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::string toml_text_fault(std::string_view text) {
@@ -65,6 +99,12 @@ std::string toml_text_fault(std::string_view text) {
   if (const std::size_t line = line_of_nameless_header(text); line != 0) {
     return fmt::format("{}: a table without a name begins here; write its name between the brackets, such as [panel]",
                        line);
+  }
+  if (const std::size_t line = line_of_foreign_letter(text); line != 0) {
+    return fmt::format(
+        "{}: a letter that is no plain one stands outside of quotes; names here have plain letters, texts stand in "
+        "\"\"",
+        line);
   }
   return "";
 }

@@ -11,4 +11,5 @@ cmake --build --preset asan-ubsan --target fuzz_readers
 echo "seed $seed"
 cd build/asan-ubsan
 export LSAN_OPTIONS="suppressions=$OLDPWD/tests/leak_suppressions.txt:print_suppressions=0"
+export UBSAN_OPTIONS=abort_on_error=1  # so that the input is left behind here too
 exec tests/fuzz/fuzz_readers "$OLDPWD/tests/fuzz/corpus" --seconds "$seconds" --seed "$seed"
