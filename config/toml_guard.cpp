@@ -76,8 +76,7 @@ std::size_t behind_quotes(std::string_view text, std::size_t place) {
 /// The first line with a byte beyond ASCII outside of quotes and comments; 0 = there is none. The parser's table of
 /// blanks has no answer for some of those letters.
 std::size_t line_of_foreign_letter(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  std::size_t place = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  std::size_t place = 0;
   while (place < text.size()) {
     const char c = text[place];
     if (static_cast<unsigned char>(c) >= 0x80)
@@ -94,6 +93,8 @@ std::size_t line_of_foreign_letter(std::string_view text) {
 }  // namespace
 
 std::string toml_text_fault(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   if (const std::size_t line = line_of_deep_key(text); line != 0)
     return fmt::format("{}: a key of {} parts or more; no key here has so many, correct it", line, kDeepestKey);
   if (const std::size_t line = line_of_nameless_header(text); line != 0) {
