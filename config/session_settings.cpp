@@ -32,6 +32,23 @@ void read_source(TableReader& table, std::optional<std::string>& source) {
   source = source->substr(0, path) + table.from_folder(source->substr(path));
 }
 
+/// A number of points, or the path of a file of points.
+void read_plan(TableReader& table, std::optional<PointPlan>& plan) {
+  constexpr double kMostPoints = 4294967295;
+  PointPlan read;
+  if (table.has_text("plan")) {
+    std::string text;
+    table.read("plan", text);
+    if (const Failure failure = parse_point_plan(text, read)) return table.fail("plan", failure.message);
+    if (!read.file.empty()) read.file = table.from_folder(read.file);
+  } else if (table.has("plan")) {
+    table.read_whole("plan", read.count, {1, kMostPoints});
+  } else {
+    return;
+  }
+  if (table.good()) plan = std::move(read);
+}
+
 /// Of IPv4 or IPv6.
 bool is_numeric_address(const std::string& text) {
   std::array<unsigned char, sizeof(in6_addr)> bytes{};
@@ -78,6 +95,7 @@ Failure load_session(const std::string& path, SessionSettings& settings) {
     read.capacity = capacity;
   }
   root.read("headless", read.headless);
+  read_plan(root, read.plan);
   if (std::optional<TableReader> fit = root.table("fit")) read_fit_table(*fit, read.fit);
   if (std::optional<TableReader> panel = root.table("panel")) read_panel(*panel, read.panel);
   root.finish();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/fit_settings.hpp"
+#include "config/point_plan.hpp"
 #include "drivers/source/failure.hpp"
 
 namespace bladefit {
@@ -30,6 +31,7 @@ struct SessionSettings {
   std::optional<double> until_idle;       ///< [s], > 0
   std::optional<std::uint32_t> capacity;  ///< points that keep a place in the fit, 6..16777216
   std::optional<bool> headless;           ///< no screen
+  std::optional<PointPlan> plan;          ///< of the points that will come
   FitSettings fit;
   PanelSettings panel;
 };

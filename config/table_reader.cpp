@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
 
 #include "config/toml_error.hpp"
+#include "config/toml_guard.hpp"
 #include "drivers/text/read_file.hpp"
 
 namespace bladefit {
@@ -26,23 +26,11 @@ std::string type_name(const toml::node& node) {
   return "a date or time";
 }
 
-constexpr std::size_t kDeepestKey = 32;
-
-/// The first line with a key of more parts than any here has, such as a.a.a.a ..., or 0. The parser would nest a table
-/// for each.
-std::size_t line_of_deep_key(std::string_view text) {
-  constexpr std::string_view kOfKeys = "-_\"' \t";
-  std::size_t line = 1, dots = 0;
-  for (const char c : text) {
-    line += c == '\n' ? 1 : 0;
-    const bool letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (c == '.') {
-      if (++dots >= kDeepestKey) return line;
-    } else if (!letter && kOfKeys.find(c) == std::string_view::npos) {
-      dots = 0;
-    }
-  }
-  return 0;
+/// What is wrong, without the middle of what it cites where that is long: the way out stands at the end.
+std::string told(const std::string& what) {
+  constexpr std::size_t kFront = 60, kBack = 130;
+  if (what.size() <= kFront + kBack) return what;
+  return what.substr(0, kFront) + "..." + what.substr(what.size() - kBack);
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -92,9 +80,8 @@ TomlDocument read_toml(const std::string& path) {
     document.error = {failure.kind, fmt::format("{}: {}", path, failure.message)};
     return document;
   }
-  if (const std::size_t line = line_of_deep_key(text); line != 0) {
-    document.error = bad_input(
-        fmt::format("{}:{}: a key of {} parts or more; no key here has so many, correct it", path, line, kDeepestKey));
+  if (const std::string fault = toml_text_fault(text); !fault.empty()) {
+    document.error = bad_input(fmt::format("{}:{}", path, fault));
     return document;
   }
   try {
@@ -116,7 +103,8 @@ void TableReader::fail(std::string_view key, const std::string& what) {
   if (document_->error) return;
   const toml::node* node = table_->get(key);
   const toml::source_position place = node == nullptr ? table_->source().begin : node->source().begin;
-  document_->error = bad_input(fmt::format("{}:{}: key '{}': {}", document_->name, place.line, full_name(key), what));
+  document_->error =
+      bad_input(fmt::format("{}:{}: key '{}': {}", document_->name, place.line, full_name(key), told(what)));
 }
 
 /// The value of a key; null where it is absent or an error was found before.
@@ -126,6 +114,11 @@ const toml::node* TableReader::find(std::string_view key) {
 }
 
 bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
+
+bool TableReader::has_text(std::string_view key) {
+  const toml::node* node = find(key);
+  return node != nullptr && node->is_string();
+}
 
 bool TableReader::says_absent(std::string_view key) {
   const toml::node* node = find(key);

@@ -107,6 +107,9 @@ class TableReader {
   /// Whether the key is there. It counts as asked for.
   [[nodiscard]] bool has(std::string_view key);
 
+  /// Whether the key is there and holds a text.
+  [[nodiscard]] bool has_text(std::string_view key);
+
   /// Whether the key is there and says `false`: something is absent in the device.
   [[nodiscard]] bool says_absent(std::string_view key);
 

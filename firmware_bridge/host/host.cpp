@@ -61,14 +61,27 @@ Failure check_identity(const std::string& folder, const JournalSummary& recorded
                   path, which.empty() ? "" : ": ", which));
 }
 
-std::shared_ptr<const Tally> tally_of(const ToleranceMap& tolerance, std::span<const Verdict> verdicts) {
-  auto tally = std::make_shared<Tally>(tolerance);
-  for (const Verdict& verdict : verdicts) {
-    tally->accept(verdict);
-    tally->give_up(verdict.sequence);
+/// Counts the points on their way.
+class CountedPoints : public JudgedPoints {
+ public:
+  CountedPoints(const ToleranceMap& tolerance, JudgedPoints& to)
+      : to_(to), tally_(std::make_shared<Tally>(tolerance)) {}
+
+  void add(const ProbePoint& point, const Verdict& verdict) override {
+    tally_->accept(verdict);
+    tally_->give_up(verdict.sequence);
+    to_.add(point, verdict);
   }
-  return tally;
-}
+  void clear() override {
+    tally_->clear();
+    to_.clear();
+  }
+  [[nodiscard]] std::shared_ptr<const Tally> tally() const { return tally_; }
+
+ private:
+  JudgedPoints& to_;
+  std::shared_ptr<Tally> tally_;
+};
 
 }  // namespace
 
@@ -182,13 +195,11 @@ void Host::close_panel() {
   if (running_->panel.joinable()) running_->panel.join();
 }
 
-SessionResult Host::finish() {
+SessionResult Host::finish(JudgedPoints& points) {
   for (std::thread& thread : running_->threads) thread.join();
   SessionResult result{.end = shared_.outcome.end(),
                        .error = shared_.outcome.failure(),
                        .report = {},
-                       .points = {},
-                       .verdicts = {},
                        .refused = {},
                        .losses = {},
                        .lost = {}};
@@ -203,12 +214,14 @@ SessionResult Host::finish() {
     if (!unreadable) unreadable = broken;
   }
   result.report = localizer.fit();
-  const Failure broken = stored.for_each([&](const StreamEvent& event) { add_event(event, localizer, result); });
+  CountedPoints counted(settings_.localizer.tolerance, points);
+  JudgedPoints& to = result.report.memory_full ? counted : points;
+  const Failure broken = stored.for_each([&](const StreamEvent& event) { add_event(event, localizer, result, to); });
   if (!unreadable) unreadable = broken;
   if (unreadable && !result.error) result.error = unreadable;
   if (result.error) result.end = SessionEnd::failed;
   if (shared_.outcome.program_ended()) result.losses.finish();
-  if (result.report.memory_full) running_->judged_again = tally_of(settings_.localizer.tolerance, result.verdicts);
+  if (result.report.memory_full) running_->judged_again = counted.tally();
   return result;
 }
 

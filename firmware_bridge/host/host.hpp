@@ -58,9 +58,9 @@ class Host {
   /// What the panel shows now: the session's own screen needs no connection. After start().
   [[nodiscard]] PanelState panel_state() const;
 
-  /// Gives what the session came to. Call once, after wait_for_end() was true. The panel goes on showing it, as ended,
-  /// until the host is destroyed.
-  [[nodiscard]] SessionResult finish();
+  /// Gives what the session came to, and its points one by one: the memory for it does not depend on their number. Call
+  /// once, after wait_for_end() was true. The panel goes on showing it, as ended, until the host is destroyed.
+  [[nodiscard]] SessionResult finish(JudgedPoints& points);
 
   /// Shows the verdict of the whole result on the panel, and that the session has ended; what was found beside the fit
   /// is known there alone. After finish().

@@ -15,12 +15,11 @@ void add_range(const SequenceRange& range, std::vector<SequenceRange>& ranges) {
 
 }  // namespace
 
-void add_event(const StreamEvent& event, const Localizer& localizer, SessionResult& result) {
+void add_event(const StreamEvent& event, const Localizer& localizer, SessionResult& result, JudgedPoints& points) {
   const std::optional<SequenceRange> lost = result.losses.take(event);
   if (lost) add_range(*lost, result.lost);
   if (event.kind == EventKind::reset) {
-    result.points.clear();
-    result.verdicts.clear();
+    points.clear();
     result.refused.clear();
     result.lost.clear();
   }
@@ -32,8 +31,7 @@ void add_event(const StreamEvent& event, const Localizer& localizer, SessionResu
     result.refused.push_back(event.point.sequence);
     return;
   }
-  result.points.push_back(event.point);
-  result.verdicts.push_back(verdict);
+  points.add(event.point, verdict);
 }
 
 }  // namespace bladefit

@@ -140,6 +140,23 @@ TEST(RunPanel, ShowsWhatTheResultSays) {
   expect_newest(panel, result);
 }
 
+/// A session file says how many points will come; the command line wins over it.
+TEST(RunPanel, TellsHowManyPointsAreToCome) {
+  const ScratchFolder scratch;
+  SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints, {"--rate", "1000"}));
+  std::filesystem::copy_file(kFewPoints, scratch / "program.csv");
+  const std::string config = scratch.write("session.toml", "plan = \"program.csv\"\n");
+  const auto planned = [&](const std::vector<std::string>& more) {
+    Process run(run_options(source_of(Link::modbus_tcp, machine.address()), scratch / "session",
+                            scratch / "result.json", std::vector<std::string>{"--config", config} + more));
+    const RawPanel panel(panel_port(run));
+    EXPECT_TRUE(eventually([&] { return panel.number(287) != 0; }, 20s)) << run.err();
+    return panel.number(287);
+  };
+  EXPECT_EQ(planned({}), 200U);
+  EXPECT_EQ(planned({"--plan", "1234"}), 1234U);
+}
+
 /// What is wrong with the points as a whole is found when the session ends; the panel's last words say it too.
 TEST(RunPanel, EndsWithTheVerdictOfTheResult) {
   const ScratchFolder scratch;

@@ -33,7 +33,7 @@ std::string place_text(const RidgeChoice& choice, const FitPlan& plan) {
   std::string places;
   for (std::size_t k = 0; k < std::min(choices.size(), kMostTold); ++k)
     places += (k == 0 ? "" : k + 1 == choices.size() ? " and " : ", ") + place_text(choices[k], plan);
-  if (choices.size() > kMostTold) places += " ...";
+  if (choices.size() > kMostTold) places += fmt::format(" and {} more", choices.size() - kMostTold);
   throw ToolError(fmt::format("--leading-edge auto: {} may be the leading edge, in the middle at {}; {}",
                               choices.size() == 1 ? "one ridge" : fmt::format("{} ridges", choices.size()), places,
                               fix));

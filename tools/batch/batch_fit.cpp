@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tools/batch/cpu_clock.hpp"
@@ -19,30 +20,30 @@ bool is_identity(const Pose& pose) {
   return pose.rotation == Mat3(Mat3::Identity()) && pose.translation == Vec3(Vec3::Zero());
 }
 
-std::vector<double> distances_of(const std::vector<Verdict>& verdicts) {
-  std::vector<double> distances(verdicts.size());
-  std::transform(verdicts.begin(), verdicts.end(), distances.begin(), [](const Verdict& v) { return v.foot.distance; });
-  return distances;
-}
+/// Oriented distances of points as measured, at C = I, t = 0 [mm], by searches. Where the points as measured are far
+/// from the design, feet are the nearest whatever the probing directions: hardly one would face the probe there, and to
+/// find that out takes milliseconds a point.
+class DistanceAsMeasured {
+ public:
+  /// `points` stand for all.
+  DistanceAsMeasured(const DesignImage& design, const LocalizerConfig& config, const std::vector<ProbePoint>& points)
+      : surface_(design),
+        probe_radius_mm_(config.probe_radius_mm),
+        directed_(config.use_approach && !is_far_from(surface_, points, Pose(), config.probe_radius_mm)) {}
 
-/// Oriented distances of the points as measured, at C = I, t = 0 [mm], by searches. Where the points as measured are
-/// far from the design, feet are the nearest whatever the probing directions: hardly one would face the probe there,
-/// and to find that out takes milliseconds a point.
-std::vector<double> distances_as_measured(const DesignImage& design, const LocalizerConfig& config,
-                                          const std::vector<ProbePoint>& points) {
-  const Surface surface(design);
-  const bool directed = config.use_approach && !is_far_from(surface, points, Pose(), config.probe_radius_mm);
-  std::vector<double> distances;
-  distances.reserve(points.size());
-  for (const ProbePoint& point : points) {
+  [[nodiscard]] double of(const ProbePoint& point) const {
     ProjectionQuery query;
     query.point = Vec3(point.position.data());
-    if (directed) query.approach = Vec3(point.approach.data());
-    const Projection nearest = project_global(surface, query, nullptr).nearest;
-    distances.push_back(foot_of(surface, nearest, config.probe_radius_mm).distance);
+    if (directed_) query.approach = Vec3(point.approach.data());
+    const Projection nearest = project_global(surface_, query, nullptr).nearest;
+    return foot_of(surface_, nearest, probe_radius_mm_).distance;
   }
-  return distances;
-}
+
+ private:
+  Surface surface_;
+  double probe_radius_mm_;
+  bool directed_;
+};
 
 /// Points at the start pose, ready to be refined.
 struct StagedPoints {
@@ -104,37 +105,31 @@ FittedPoints fitted_from_start(const DesignImage& design, const FitPlan& plan, c
   const bool as_measured = is_identity(plan.localizer.start);
   const std::vector<Verdict> verdicts = verdicts_of(*fit.localizer, points);
   out.quality = measure_fit(plan.localizer, points, fit.localizer->fit(), verdicts);
-  out.batch.result = result_record(
-      {.design = design,
-       .plan = plan,
-       .points = points,
-       .report = fit.localizer->fit(),
-       .verdicts = verdicts,
-       .before = as_measured ? distances_of(fit.verdicts) : distances_as_measured(design, plan.localizer, points)});
+  std::optional<DistanceAsMeasured> measured;
+  if (!as_measured) measured.emplace(design, plan.localizer, points);
+  Rows<FittedPoint> fitted;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    fitted.push_back({points[i], verdicts[i], measured ? measured->of(points[i]) : fit.verdicts[i].foot.distance});
+  out.batch.result = result_record({.design = design, .plan = plan, .points = fitted, .report = fit.localizer->fit()});
   return out;
 }
 
 /// What is told of points that have no pose: nothing but their numbers.
 BatchFit without_fit(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Verdict> verdicts;
+  Rows<FittedPoint> unfitted;
   for (const ProbePoint& point : points) {
     Verdict verdict;
     verdict.sequence = point.sequence;
     verdict.foot.distance = kUnknown;
-    verdicts.push_back(verdict);
+    unfitted.push_back({point, verdict, kUnknown});
   }
   FitReport report;
   report.status = FitStatus::tracking;
   report.determined = report.free;
   report.pose = plan.localizer.start;
   BatchFit batch;
-  batch.result = result_record({.design = design,
-                                .plan = plan,
-                                .points = points,
-                                .report = report,
-                                .verdicts = verdicts,
-                                .before = std::vector<double>(points.size(), kUnknown)});
+  batch.result = result_record({.design = design, .plan = plan, .points = unfitted, .report = report});
   return batch;
 }
 
@@ -167,7 +162,7 @@ BatchFit checked_fit(const DesignImage& design, const FitPlan& plan, const std::
   }
   add_findings(choice.findings, fitted.batch.result);
   add_findings(checks.findings_of(fitted.quality, choice.searched), fitted.batch.result);
-  return fitted.batch;
+  return std::move(fitted.batch);
 }
 
 }  // namespace
@@ -180,15 +175,18 @@ BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::v
   return batch;
 }
 
-Result result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                 const FitReport& report, const std::vector<Verdict>& verdicts, const StreamEvidence& stream,
-                 const std::string& name) {
-  Result result = result_record({.design = design,
-                                 .plan = plan,
-                                 .points = points,
-                                 .report = report,
-                                 .verdicts = verdicts,
-                                 .before = distances_as_measured(design, plan.localizer, points)});
+Result result_of(const DesignImage& design, const FitPlan& plan, const Rows<JudgedPoint>& judged,
+                 const FitReport& report, const StreamEvidence& stream, const std::string& name) {
+  std::vector<ProbePoint> points;
+  std::vector<Verdict> verdicts;
+  for (const JudgedPoint& some : some_of(judged, kMostLookedAt)) {
+    points.push_back(some.point);
+    verdicts.push_back(some.verdict);
+  }
+  const DistanceAsMeasured measured(design, plan.localizer, points);
+  Rows<FittedPoint> fitted;
+  for (const JudgedPoint& each : judged) fitted.push_back({each.point, each.verdict, measured.of(each.point)});
+  Result result = result_record({.design = design, .plan = plan, .points = fitted, .report = report});
   result.name = name;
   add_findings(doubts_about(design, plan, points, report, verdicts), result);
   judge(result, plan.localizer, stream);

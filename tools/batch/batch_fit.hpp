@@ -4,6 +4,7 @@
 
 #include "core/localizer.hpp"
 #include "tools/batch/fit_options.hpp"
+#include "tools/batch/judged_point.hpp"
 #include "tools/results/judgement.hpp"
 #include "tools/results/result.hpp"
 
@@ -30,11 +31,10 @@ struct BatchFit {
 [[nodiscard]] BatchFit fit_points(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
                                   const std::string& name);
 
-/// The result of a fit that was made elsewhere, over a stream of which `stream` tells what is missing; verdicts[i] is
-/// that of points[i]. Only the distances before the fit are
-/// computed here.
-[[nodiscard]] Result result_of(const DesignImage& design, const FitPlan& plan, const std::vector<ProbePoint>& points,
-                               const FitReport& report, const std::vector<Verdict>& verdicts,
-                               const StreamEvidence& stream, const std::string& name);
+/// The result of a fit that was made elsewhere, over a stream of which `stream` tells what is missing. Only the
+/// distances before the fit are computed here. What stands against the fit as a whole is sought with kMostLookedAt of
+/// the points.
+[[nodiscard]] Result result_of(const DesignImage& design, const FitPlan& plan, const Rows<JudgedPoint>& judged,
+                               const FitReport& report, const StreamEvidence& stream, const std::string& name);
 
 }  // namespace bladefit

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/batch/ranked_value.hpp"
+
 namespace bladefit {
 namespace {
 
@@ -31,27 +33,31 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-Outliers find_outliers(const FitReport& report, double size_mm, const std::vector<Verdict>& verdicts,
-                       const std::vector<ProbePoint>& points) {
+Residual residual_of(const ProbePoint& point, const Verdict& verdict) {
+  return {verdict.sequence, verdict.fitted, verdict.foot.distance, verdict.uncertainty_mm, point.weight};
+}
+
+Outliers find_outliers(const FitReport& report, double size_mm, const Rows<Residual>& residuals) {
   Outliers out;
   const double sigma = report.sigma_mm;
   if (report.determined < report.free || !(sigma > 0.0)) return out;
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (!verdicts[i].fitted) continue;
-    sizes.push_back(std::sqrt(points[i].weight) * std::abs(verdicts[i].foot.distance));
-  }
-  if (sizes.empty()) return out;
-  out.scale = kMedianToScale * median(sizes);
-  out.limit = normal_quantile(kByChance / static_cast<double>(sizes.size()));
+  const auto each_size = [&residuals](const std::function<void(double)>& take) {
+    for (const Residual& r : residuals) {
+      if (r.fitted) take(std::sqrt(r.weight) * std::abs(r.distance_mm));
+    }
+  };
+  std::size_t fitted = 0;
+  each_size([&fitted](double) { ++fitted; });
+  if (fitted == 0) return out;
+  out.scale = kMedianToScale * ranked_value(fitted / 2, each_size);
+  out.limit = normal_quantile(kByChance / static_cast<double>(fitted));
   if (!(out.scale > kRounding * size_mm)) return out;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    const Verdict& v = verdicts[i];
-    if (!v.fitted) continue;
-    const double spread = v.uncertainty_mm / sigma, leverage = points[i].weight * spread * spread;
+  for (const Residual& r : residuals) {
+    if (!r.fitted) continue;
+    const double spread = r.uncertainty_mm / sigma, leverage = r.weight * spread * spread;
     if (leverage > kMostLeverage) continue;
-    const double size = std::sqrt(points[i].weight) * v.foot.distance / (out.scale * std::sqrt(1.0 - leverage));
-    if (std::abs(size) > out.limit) out.points.push_back({v.sequence, v.foot.distance, size});
+    const double size = std::sqrt(r.weight) * r.distance_mm / (out.scale * std::sqrt(1.0 - leverage));
+    if (std::abs(size) > out.limit) out.points.push_back({r.sequence, r.distance_mm, size});
   }
   std::stable_sort(out.points.begin(), out.points.end(), [](const Outlier& a, const Outlier& b) {
     return std::abs(a.studentized) > std::abs(b.studentized);

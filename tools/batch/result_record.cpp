@@ -38,11 +38,11 @@ class Summing {
 
 void sum_up(const FinishedFit& fit, Result& result) {
   Summing all, leading_edge, rest;
-  for (std::size_t i = 0; i < fit.verdicts.size(); ++i) {
-    const Verdict& after = fit.verdicts[i];
+  for (const FittedPoint& fitted : fit.points) {
+    const Verdict& after = fitted.verdict;
     if (!after.fitted || std::isnan(after.foot.distance)) continue;
-    all.add(fit.before[i], after.foot.distance);
-    (after.region == Region::leading_edge ? leading_edge : rest).add(fit.before[i], after.foot.distance);
+    all.add(fitted.before, after.foot.distance);
+    (after.region == Region::leading_edge ? leading_edge : rest).add(fitted.before, after.foot.distance);
   }
   all.write(result.all);
   result.all.max_before = all.max_before();
@@ -50,10 +50,11 @@ void sum_up(const FinishedFit& fit, Result& result) {
   rest.write(result.rest);
 }
 
-ResultPoint point_of(const ProbePoint& point, const Verdict& verdict, double before) {
+ResultPoint point_of(const FittedPoint& fitted) {
+  const Verdict& verdict = fitted.verdict;
   const Foot& foot = verdict.foot;
   return {.sequence = verdict.sequence,
-          .position = point.position,
+          .position = fitted.point.position,
           .patch = foot.patch,
           .u = foot.u,
           .v = foot.v,
@@ -63,7 +64,7 @@ ResultPoint point_of(const ProbePoint& point, const Verdict& verdict, double bef
           .tolerance = verdict.tolerance_mm,
           .uncertainty = verdict.uncertainty_mm,
           .expanded = verdict.expanded_mm,
-          .before = before,
+          .before = fitted.before,
           .state = verdict.state,
           .action = verdict.action,
           .left_out = verdict.left_out,
@@ -126,10 +127,7 @@ Result result_record(const FinishedFit& fit) {
   RobustCheck robust = check_robustly(fit);
   result.outliers = std::move(robust.outliers);
   result.judged_otherwise = std::move(robust.judged_otherwise);
-  result.points.reserve(fit.points.size());
-  for (std::size_t i = 0; i < fit.points.size(); ++i) {
-    result.points.push_back(point_of(fit.points[i], fit.verdicts[i], fit.before[i]));
-  }
+  for (const FittedPoint& fitted : fit.points) result.points.push_back(point_of(fitted));
   result.details = details_of(fit);
   return result;
 }

@@ -7,25 +7,22 @@
 namespace bladefit {
 namespace {
 
-/// Of more points some are fitted, evenly taken, which keeps memory and time of a long session within bounds.
-constexpr std::size_t kMostFitted = 16384;
-
-std::vector<std::uint32_t> different(const std::vector<Verdict>& a, const std::vector<Verdict>& b) {
-  std::vector<std::uint32_t> sequences;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (is_judged(a[i].state) && is_judged(b[i].state) && a[i].state != b[i].state) sequences.push_back(a[i].sequence);
-  }
-  return sequences;
+bool judged_otherwise(const Verdict& a, const Verdict& b) {
+  return is_judged(a.state) && is_judged(b.state) && a.state != b.state;
 }
 
 /// Those of points that were not fitted are at the same pose.
-std::vector<Verdict> all_verdicts(const Localizer& localizer, const std::vector<ProbePoint>& points) {
-  std::vector<Verdict> verdicts(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (localizer.verdict_of(points[i].sequence, verdicts[i]) != Status::ok)
-      static_cast<void>(localizer.judge_aside(points[i], verdicts[i]));
-  }
-  return verdicts;
+Verdict verdict_by(const Localizer& localizer, const ProbePoint& point) {
+  Verdict verdict;
+  if (localizer.verdict_of(point.sequence, verdict) != Status::ok)
+    static_cast<void>(localizer.judge_aside(point, verdict));
+  return verdict;
+}
+
+std::vector<ProbePoint> points_to_fit(const Rows<FittedPoint>& points) {
+  std::vector<ProbePoint> out;
+  for (const FittedPoint& fitted : some_of(points, kMostLookedAt)) out.push_back(fitted.point);
+  return out;
 }
 
 }  // namespace
@@ -35,19 +32,24 @@ RobustCheck check_robustly(const FinishedFit& fit) {
   LocalizerConfig config = fit.plan.localizer;
   const Surface surface(fit.design);
   if (config.mode != FitMode::least_squares || fit.report.status != FitStatus::converged) return out;
+  Rows<Residual> residuals;
   if (config.loss != Loss::none) {
-    out.outliers = find_outliers(fit.report, surface.half_diagonal(), fit.verdicts, fit.points);
+    for (const FittedPoint& fitted : fit.points) residuals.push_back(residual_of(fitted.point, fitted.verdict));
+    out.outliers = find_outliers(fit.report, surface.half_diagonal(), residuals);
     return out;
   }
   config.loss = Loss::tukey;
-  const std::vector<ProbePoint> fitted = some_of(fit.points, kMostFitted);
-  OwnedLocalizer robust(fit.design, config, fitted.size());
-  static_cast<void>(stage_points(*robust, surface, config, fitted, FootStarts::searched, "robust fit"));
-  refine_all(*robust, fitted.size());
+  const std::vector<ProbePoint> some = points_to_fit(fit.points);
+  OwnedLocalizer robust(fit.design, config, some.size());
+  static_cast<void>(stage_points(*robust, surface, config, some, FootStarts::searched, "robust fit"));
+  refine_all(*robust, some.size());
   if (robust->fit().status != FitStatus::converged) return out;
-  const std::vector<Verdict> verdicts = all_verdicts(*robust, fit.points);
-  out.outliers = find_outliers(robust->fit(), surface.half_diagonal(), verdicts, fit.points);
-  out.judged_otherwise = different(fit.verdicts, verdicts);
+  for (const FittedPoint& fitted : fit.points) {
+    const Verdict verdict = verdict_by(*robust, fitted.point);
+    residuals.push_back(residual_of(fitted.point, verdict));
+    if (judged_otherwise(fitted.verdict, verdict)) out.judged_otherwise.push_back(fitted.verdict.sequence);
+  }
+  out.outliers = find_outliers(robust->fit(), surface.half_diagonal(), residuals);
   return out;
 }
 

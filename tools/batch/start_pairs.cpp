@@ -125,7 +125,8 @@ void check_rests(const std::vector<Pair>& pairs, const std::vector<double>& rest
   throw ToolError(fmt::format(
       "{}: the pairs do not fit each other: no rigid motion brings them nearer than rms {:.4g} (their spread is "
       "{:.4g}); what remains: {}{}; check which point belongs to which, and units and signs",
-      path, rms_mm / mm_per_unit, spread_mm / mm_per_unit, list, pairs.size() > kListed ? " ..." : ""));
+      path, rms_mm / mm_per_unit, spread_mm / mm_per_unit, list,
+      pairs.size() > kListed ? fmt::format(" and {} more", pairs.size() - kListed) : ""));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/commands/compile_command.hpp"
+#include "tools/commands/decimal_numbers.hpp"
 #include "tools/commands/help_commands.hpp"
 #include "tools/commands/localize_command.hpp"
 #include "tools/commands/loft_command.hpp"
@@ -36,10 +37,13 @@ constexpr const char* kFooter =
     "3 "
     "device or I/O failure, 4 not decided: the reasons stand below the verdict.";
 
-/// What is wrong with the command line. Of a value that is no number the parser says `--ratio = abc`.
+/// What is wrong with the command line. Of a value that is no number the parser says `--ratio = abc`, of an option that
+/// is given twice `--ratio: At Most 1 required but received 2`.
 std::string words_of(const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::size_t place = text.find(": "), equal = text.find(" = ");
+  if (const std::size_t most = text.find(": At Most 1 required but received "); most != std::string::npos)
+    return text.substr(0, most) + ": is given more than once; give it once";
   const bool conversion = dynamic_cast<const CLI::ConversionError*>(&error) != nullptr;
   if (!conversion || place == std::string::npos || equal == std::string::npos) return text;
   return text.substr(place + 2, equal - place - 2) + ": '" + text.substr(equal + 3) + "' is not a number";
@@ -104,6 +108,7 @@ int run_command_line(int argc, char** argv) {
   add_recover_command(app, exit_code);
   add_reproduce_command(app, exit_code);
   add_help_commands(app, exit_code);
+  take_decimal_numbers(app);
   if (argc == 1) {
     fmt::print("{}", app.help());
     return 0;

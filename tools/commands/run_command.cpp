@@ -90,7 +90,14 @@ void linger(const RunPlan& plan, const StopFlag& stop, std::uint16_t port, std::
   while (!stop.requested() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(kTurn);
 }
 
-std::string ending(const SessionResult& session) {
+/// The points of the ended session.
+struct SessionPoints : JudgedPoints {
+  void add(const ProbePoint& point, const Verdict& verdict) override { rows.push_back({point, verdict}); }
+  void clear() override { rows.clear(); }
+  Rows<JudgedPoint> rows;
+};
+
+std::string ending(const SessionResult& session, std::size_t points) {
   switch (session.end) {
     case SessionEnd::finished:
       return "the machine's program is finished";
@@ -102,7 +109,7 @@ std::string ending(const SessionResult& session) {
     case SessionEnd::failed:
       break;
   }
-  return fmt::format("by a fault; what follows is of the {} points stored before it", session.points.size());
+  return fmt::format("by a fault; what follows is of the {} points stored before it", points);
 }
 
 /// Where the words for the user go.
@@ -139,23 +146,25 @@ WrittenFiles write_files(const RunPlan& plan, const Result& result) {
 /// Writes what the session came to, also after a fault: then of the points stored before it. Whatever cannot be written
 /// keeps nothing else from it.
 int conclude(const RunPlan& plan, Host& host, const Words& words) {
-  const SessionResult session = host.finish();
+  SessionPoints points;
+  const SessionResult session = host.finish(points);
   if (session.error) tell(session.error.message);
   // A session that was refused is not this run's to report on.
   const bool refused = session.error.kind == Failure::Kind::bad_input;
-  if (session.error && (refused || session.points.empty())) return exit_code_of(session.error);
+  if (session.error && (refused || points.rows.empty())) return exit_code_of(session.error);
   const StreamEvidence stream{session.lost, session.losses.unnumbered(), session.refused, session.losses.finished()};
-  if (session.points.empty()) {
+  if (points.rows.empty()) {
     throw ToolError(
         fmt::format("the session in {} has no point that can be used: nothing can be said of the blade; "
                     "check that the machine's program is running",
                     plan.host.session_directory));
   }
-  const Result result = result_of(plan.image, plan.fit, session.points, session.report, session.verdicts, stream,
-                                  plan.host.session_directory);
+  const Result result =
+      result_of(plan.image, plan.fit, points.rows, session.report, stream, plan.host.session_directory);
   host.conclude({result.verdict.state, result.verdict.codes()});
   const WrittenFiles files = write_files(plan, result);
-  std::string text = fmt::format("Session ended: {}\n{}", ending(session), operator_summary(result));
+  std::string text =
+      fmt::format("Session ended: {}\n{}", ending(session, points.rows.size()), operator_summary(result));
   for (const std::string& path : files.paths) text += path == "-" ? "" : fmt::format("Written: {}\n", path);
   const bool told = tell_summary(words, text, plan);
   for (const Failure& failure : files.failures) tell(failure.message);
@@ -214,9 +223,14 @@ void add_session_options(CLI::App& command, RunFlags& flags) {
   command.add_option_function<double>(
       "--until-idle", [&session](double value) { session.until_idle = value; },
       "end when the program is finished or no new point came for so many seconds");
-  command.add_option("--plan", flags.plan,
-                     "how many points will come, or a CSV file of those that the program will probe: the panel then "
-                     "says how far it is");
+  command.add_option_function<std::string>(
+      "--plan",
+      [&session](const std::string& plan) {
+        if (const Failure failure = parse_point_plan(plan, session.plan.emplace()))
+          throw ToolError("--plan " + failure.message);
+      },
+      "how many points will come, or a CSV file of those that the program will probe: the panel then "
+      "says how far it is");
   command.add_option("--json", flags.json, "write a copy of result.json here; - writes it to standard output");
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -38,6 +37,7 @@ SessionSettings merged_session(const RunFlags& flags) {
   over(session.session, flags.session.session);
   over(session.until_idle, flags.session.until_idle);
   over(session.headless, flags.session.headless);
+  over(session.plan, flags.session.plan);
   session.fit = merged(flags.session.fit, session.fit);
   return session;
 }
@@ -51,10 +51,16 @@ SourceSettings plan_source(const SessionSettings& session, const FitSettings& fl
   if (session.source) {
     if (const Failure failure = apply_source_uri(*session.source, source)) throw ToolError(failure);
   }
-  if (protocol_of(source) == nullptr) {
+  const SourceProtocol* const protocol = protocol_of(source);
+  if (protocol == nullptr) {
     throw ToolError(
         "no source is given; name one with --source, for example modbus-tcp://192.168.0.10:502, or in the "
         "session file");
+  }
+  if (const std::string place = protocol->place(source); place.empty() || place.starts_with("//:")) {
+    throw ToolError(fmt::format("{}: it does not say where the machine is; write it there, or name it with --source{}",
+                                session.device.value_or("source"),
+                                protocol->form.empty() ? std::string() : fmt::format(" {}", protocol->form)));
   }
   auto* const replay = std::get_if<ReplaySettings>(&source);
   if (replay != nullptr) {
@@ -80,6 +86,15 @@ PanelServerSettings plan_panel(const PanelSettings& file, const std::string& fla
   return panel;
 }
 
+/// Standard input can be read once.
+void check_standard_input(const SourceSettings& source, const std::string& plan_file) {
+  const auto* const replay = std::get_if<ReplaySettings>(&source);
+  if (replay == nullptr || replay->file != "-" || plan_file != "-") return;
+  throw ToolError(
+      "--plan -: the recording is read from standard input too; name a file for one of them, or leave the plan "
+      "out: a recording says how many points come");
+}
+
 /// A recording is read before the session begins: what is wrong with it is said at once, and what of it is not used.
 void check_recording(const SourceSettings& source, FitPlan& plan) {
   const auto* const replay = std::get_if<ReplaySettings>(&source);
@@ -100,15 +115,10 @@ std::chrono::milliseconds idle_of(const SessionSettings& session) {
   return std::chrono::milliseconds(std::llround(seconds * kMillisecondsPerSecond));
 }
 
-/// The number of points that will come: as it is given, or counted in a file of points.
-std::uint32_t planned_points(const std::string& plan, const PointsFormat& format) {
-  if (plan.empty()) return 0;
-  std::uint32_t count = 0;
-  const auto [end, error] = std::from_chars(plan.data(), plan.data() + plan.size(), count);
-  if (end == plan.data() + plan.size() && error == std::errc() && count > 0) return count;
-  if (end != plan.data() && end == plan.data() + plan.size())
-    throw ToolError(fmt::format("--plan {}: give a number of points from 1 to 4294967295, or a file of points", plan));
-  const PointsFile file = read_points_csv(plan, format);
+/// The number of points that will come: as it is given, or counted in a file of points; 0 = nothing says.
+std::uint32_t planned_points(const PointPlan& plan, const PointsFormat& format) {
+  if (plan.file.empty()) return plan.count;
+  const PointsFile file = read_points_csv(plan.file, format);
   if (file.error) throw ToolError(file.error);
   return static_cast<std::uint32_t>(file.points.size());
 }
@@ -122,11 +132,12 @@ void check_outputs(const RunFlags& flags, const SessionSettings& session, const 
   refuse_overwriting(copy, "settings of the session", folder / kSettingsFile);
   refuse_overwriting(copy, "verdicts of the session", folder / kVerdictsFile);
   const auto* const replay = std::get_if<ReplaySettings>(&plan.source);
-  const std::array<std::pair<const char*, std::string>, 5> inputs{
+  const std::array<std::pair<const char*, std::string>, 6> inputs{
       {{"design", session.design.value_or("")},
        {"session file", flags.config},
        {"device file", session.device.value_or("")},
        {"start pairs", start_file_of(session.fit)},
+       {"planned points", session.plan.value_or(PointPlan{}).file},
        {"recording", replay != nullptr ? replay->file : ""}}};
   for (const auto& [what, input] : inputs) {
     refuse_overwriting(copy, what, input);
@@ -154,6 +165,7 @@ RunPlan plan_run(const RunFlags& flags) {
   }
   if (session.capacity) plan.fit.localizer.capacity = *session.capacity;
   plan.source = plan_source(session, flags.session.fit, plan.fit.points);
+  check_standard_input(plan.source, session.plan.value_or(PointPlan{}).file);
   check_recording(plan.source, plan.fit);
   plan.json = flags.json;
   // The screen would mix with the result.
@@ -164,7 +176,7 @@ RunPlan plan_run(const RunFlags& flags) {
   plan.host.panel = plan_panel(session.panel, flags.panel);
   plan.linger = std::chrono::milliseconds(std::llround(session.panel.linger.value_or(0) * kMillisecondsPerSecond));
   plan.host.idle = idle_of(session);
-  plan.host.planned = planned_points(flags.plan, plan.fit.points);
+  plan.host.planned = planned_points(session.plan.value_or(PointPlan{}), plan.fit.points);
   const bool recording = std::holds_alternative<ReplaySettings>(plan.source);
   plan.host.end_when_finished = recording || plan.headless || session.until_idle.has_value();
   check_outputs(flags, session, plan);

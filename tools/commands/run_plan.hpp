@@ -15,7 +15,6 @@ struct RunFlags {
   std::string config;  ///< session TOML
   std::string json;    ///< where to write a copy of result.json; - = standard output
   std::string panel;   ///< HOST:PORT
-  std::string plan;    ///< how many points will come, or the file of those that the program will probe
   SessionSettings session;
 };
 

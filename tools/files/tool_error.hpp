@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -14,8 +15,8 @@ class ToolError : public std::runtime_error {
   using Kind = Failure::Kind;
 
   /// bad_input: wrong use or wrong content; `device`: the operating system refused to read or write.
-  explicit ToolError(const std::string& message, Kind kind = Kind::bad_input)
-      : std::runtime_error(message), kind_(kind) {}
+  explicit ToolError(std::string message, Kind kind = Kind::bad_input)
+      : std::runtime_error(without_zeros(message)), kind_(kind) {}
 
   explicit ToolError(const Failure& failure) : ToolError(failure.message, failure.kind) {}
 
@@ -25,6 +26,12 @@ class ToolError : public std::runtime_error {
   [[nodiscard]] int exit_code() const { return kind_ == Kind::device ? kDeviceFailure : kBadInput; }
 
  private:
+  /// Content that a message cites may have bytes of 0, at which what() would end.
+  static const std::string& without_zeros(std::string& message) {
+    std::ranges::replace(message, '\0', ' ');
+    return message;
+  }
+
   Kind kind_;
 };
 

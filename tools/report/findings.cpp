@@ -45,7 +45,7 @@ std::string fit_sentence(const Result& result) {
 }
 
 std::string out_sentence(const Result& result, const RegionFindings& found) {
-  if (found.worst_out == nullptr) return "none is out.";
+  if (!found.worst_out) return "none is out.";
   const Action action = found.worst_out->action;
   const std::string beyond =
       found.beyond > 0 ? fmt::format(", {} beyond the edge of the design", found.beyond) : std::string();
@@ -79,8 +79,7 @@ RegionFindings findings_of(const Result& result, Region region) {
     if (point.state == PointState::pending) ++found.pending;
     if (point.state != PointState::out) continue;
     ++(point.action == Action::none ? found.beyond : point.distance > 0 ? found.cut : found.weld);
-    if (found.worst_out == nullptr || std::abs(point.distance) > std::abs(found.worst_out->distance))
-      found.worst_out = &point;
+    if (!found.worst_out || std::abs(point.distance) > std::abs(found.worst_out->distance)) found.worst_out = point;
   }
   return found;
 }
@@ -91,14 +90,14 @@ std::uint32_t rejected_points(const Result& result) {
                     [](const ResultPoint& point) { return point.state == PointState::rejected; }));
 }
 
-std::vector<const ResultPoint*> out_of_tolerance(const Result& result) {
-  std::vector<const ResultPoint*> out;
+std::vector<ResultPoint> out_of_tolerance(const Result& result) {
+  std::vector<ResultPoint> out;
   for (const ResultPoint& point : result.points) {
-    if (point.state == PointState::out) out.push_back(&point);
+    if (point.state == PointState::out) out.push_back(point);
   }
-  std::stable_sort(out.begin(), out.end(), [](const ResultPoint* a, const ResultPoint* b) {
-    if (a->region != b->region) return a->region == Region::leading_edge;
-    return std::abs(a->distance) > std::abs(b->distance);
+  std::stable_sort(out.begin(), out.end(), [](const ResultPoint& a, const ResultPoint& b) {
+    if (a.region != b.region) return a.region == Region::leading_edge;
+    return std::abs(a.distance) > std::abs(b.distance);
   });
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ struct RegionFindings {
   std::uint32_t cut = 0, weld = 0;
   std::uint32_t beyond = 0;  ///< out beyond an outer edge of the design, where neither is proven
   std::uint32_t pending = 0;
-  const ResultPoint* worst_out = nullptr;  ///< the out-of-tolerance point of the largest distance; null = none is out
+  std::optional<ResultPoint> worst_out;  ///< the out-of-tolerance point of the largest distance; none is out without
 
   [[nodiscard]] std::uint32_t out() const { return cut + weld + beyond; }
 };
@@ -24,7 +25,7 @@ struct RegionFindings {
 [[nodiscard]] std::uint32_t rejected_points(const Result& result);
 
 /// The out-of-tolerance points: those of the leading edge first, in each region the largest distance first.
-[[nodiscard]] std::vector<const ResultPoint*> out_of_tolerance(const Result& result);
+[[nodiscard]] std::vector<ResultPoint> out_of_tolerance(const Result& result);
 
 /// Radius of a measured point about the x axis of the design, moved there by the pose [mm].
 [[nodiscard]] double radius_of(const Result& result, const ResultPoint& point);

@@ -89,7 +89,7 @@ std::string pose_table(const Result& result) {
 }
 
 std::string out_table(const Result& result) {
-  const std::vector<const ResultPoint*> out = out_of_tolerance(result);
+  const std::vector<ResultPoint> out = out_of_tolerance(result);
   if (out.empty()) return "<p>No point is out of tolerance.</p>\n";
   const std::string unit = ", " + escaped(result.units);
   std::string html = "<table class=\"points\">\n<thead>";
@@ -97,7 +97,7 @@ std::string out_table(const Result& result) {
                  "Patch", "u", "v", "Radius", "x measured", "y measured", "z measured"},
                 "th") +
           "</thead>\n<tbody>";
-  for (std::size_t k = 0; k < std::min(out.size(), kMostRows); ++k) html += out_row(result, *out[k]);
+  for (std::size_t k = 0; k < std::min(out.size(), kMostRows); ++k) html += out_row(result, out[k]);
   html += "</tbody></table>\n";
   if (out.size() > kMostRows)
     html += fmt::format("<p>And {} more: the csv report lists them all.</p>\n", out.size() - kMostRows);

@@ -42,34 +42,34 @@ std::string tooltip(const ResultPoint& point, const Result& result) {
                      point.u, point.v);
 }
 
-std::vector<const ResultPoint*> drawn_points(const MapPanel& panel, const Result& result) {
-  std::vector<const ResultPoint*> points;
+std::vector<ResultPoint> drawn_points(const MapPanel& panel, const Result& result) {
+  std::vector<ResultPoint> points;
   for (const ResultPoint& point : result.points) {
-    if (lies_in(point, panel.part)) points.push_back(&point);
+    if (lies_in(point, panel.part)) points.push_back(point);
   }
-  std::stable_sort(points.begin(), points.end(), [](const ResultPoint* a, const ResultPoint* b) {
-    const bool a_out = a->state == PointState::out, b_out = b->state == PointState::out;
+  std::stable_sort(points.begin(), points.end(), [](const ResultPoint& a, const ResultPoint& b) {
+    const bool a_out = a.state == PointState::out, b_out = b.state == PointState::out;
     if (a_out != b_out) return b_out;
-    return std::abs(a->distance) < std::abs(b->distance);
+    return std::abs(a.distance) < std::abs(b.distance);
   });
   return points;
 }
 
 /// Numbers of the worst points, each where it hides neither a mark nor another number.
 std::string labels(const MapPanel& panel, const Result& result) {
-  std::vector<const ResultPoint*> out;
+  std::vector<ResultPoint> out;
   std::vector<Rectangle> taken;
-  for (const ResultPoint* point : out_of_tolerance(result)) {
-    if (!lies_in(*point, panel.part)) continue;
+  for (const ResultPoint& point : out_of_tolerance(result)) {
+    if (!lies_in(point, panel.part)) continue;
     out.push_back(point);
-    taken.push_back(around(panel.x(point->u), panel.y(point->v), kOutRadius));
+    taken.push_back(around(panel.x(point.u), panel.y(point.v), kOutRadius));
   }
   if (out.size() > kMostLabels) return {};
   std::string svg;
-  for (const ResultPoint* point : out) {
-    const std::string number = fmt::format("{}", point->sequence);
+  for (const ResultPoint& point : out) {
+    const std::string number = fmt::format("{}", point.sequence);
     const double width = kLetterWidth * static_cast<double>(number.size()), gap = kOutRadius + 3.5;
-    const double x = panel.x(point->u), y = panel.y(point->v);
+    const double x = panel.x(point.u), y = panel.y(point.v);
     for (const auto& [left, middle] :
          {std::pair(x + gap, y), std::pair(x - gap - width, y), std::pair(x - width / 2, y - gap - kLetterHeight / 2),
           std::pair(x - width / 2, y + gap + kLetterHeight / 2)}) {
@@ -150,10 +150,10 @@ std::string point_mark(PointState state, double distance, double x, double y, co
 
 std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale) {
   std::string svg;
-  for (const ResultPoint* point : drawn_points(panel, result)) {
+  for (const ResultPoint& point : drawn_points(panel, result)) {
     const std::string mark =
-        point_mark(point->state, result.in_units(point->distance), panel.x(point->u), panel.y(point->v), scale);
-    svg += point->state == PointState::out ? fmt::format("<g>{}{}</g>\n", tooltip(*point, result), mark) : mark + "\n";
+        point_mark(point.state, result.in_units(point.distance), panel.x(point.u), panel.y(point.v), scale);
+    svg += point.state == PointState::out ? fmt::format("<g>{}{}</g>\n", tooltip(point, result), mark) : mark + "\n";
   }
   return svg + labels(panel, result);
 }

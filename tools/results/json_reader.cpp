@@ -222,7 +222,6 @@ Result parse_result(const std::string& path, const std::string& text) {
   read_region(root["regions"][word_of(Region::rest).data()], result.mm_per_unit, result.rest);
   read_optional(root, result);
   const JsonField points = root["points"];
-  result.points.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) result.points.push_back(read_point(points.element(k)));
   return result;
 }

@@ -140,11 +140,13 @@ std::string indented(const Json& json, std::size_t depth) {
 }
 
 /// The list that ends the object, in the layout of dump(1).
-void write_points(const std::vector<ResultPoint>& points, double mm_per_unit, const Put& put) {
+void write_points(const Rows<ResultPoint>& points, double mm_per_unit, const Put& put) {
   put(",\n \"points\": [");
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    put(k == 0 ? "\n  " : ",\n  ");
-    put(indented(point_json(points[k], mm_per_unit), 2));
+  const char* between = "\n  ";
+  for (const ResultPoint& point : points) {
+    put(between);
+    put(indented(point_json(point, mm_per_unit), 2));
+    between = ",\n  ";
   }
   put(points.empty() ? "]\n}\n" : "\n ]\n}\n");
 }

@@ -10,7 +10,7 @@
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kRangesTold = 5;
+constexpr std::size_t kRangesTold = 5, kZonesTold = 2;
 
 bool has_tolerance(const ResultPoint& point) { return std::isfinite(point.tolerance); }
 
@@ -54,7 +54,7 @@ std::string words_of(const std::vector<SequenceRange>& ranges) {
     text += (k == 0 ? "" : ", ") +
             (r.first == r.last ? fmt::format("{}", r.first) : fmt::format("{} to {}", r.first, r.last));
   }
-  return text + (ranges.size() > kRangesTold ? " ..." : "");
+  return text + (ranges.size() > kRangesTold ? fmt::format(" and {} more", ranges.size() - kRangesTold) : "");
 }
 
 std::string lost_text(const StreamEvidence& stream) {
@@ -85,12 +85,15 @@ ParameterBox around_zone(const ToleranceMap& map, std::uint32_t k) {
 
 std::string zone_text(const ZoneCount& zones, const ToleranceMap& map) {
   std::string text;
+  std::size_t missed = 0;
   for (std::uint32_t k = 0; k < map.box_count; ++k) {
     if (first_of_zone(map, k) != k || zones.points(k) >= map.least_points) continue;
+    if (++missed > kZonesTold) continue;
     const ParameterBox box = around_zone(map, k);
     text += fmt::format("{}patch {} u {:g} to {:g} v {:g} to {:g} ({})", text.empty() ? "" : "; ", box.patch, box.u_min,
                         box.u_max, box.v_min, box.v_max, zones.points(k));
   }
+  if (missed > kZonesTold) text += fmt::format(" and {} more", missed - kZonesTold);
   return fmt::format(
       "a leading-edge zone has fewer judged points than the {} it needs: {}; probe there, or correct the leading-edge "
       "zone",
@@ -201,11 +204,12 @@ BladeEvidence evidence_of(const Result& result, const Counts& counts, const Loca
 }
 
 void take_back_judgement(Result& result) {
-  for (ResultPoint& point : result.points) {
-    if (point.state == PointState::rejected) continue;
+  result.points.change_each([](ResultPoint point) {
+    if (point.state == PointState::rejected) return point;
     point.state = PointState::pending;
     point.action = Action::none;
-  }
+    return point;
+  });
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <string_view>
 
 #include "tools/results/words.hpp"
@@ -13,6 +15,11 @@ namespace bladefit {
 namespace {
 
 constexpr std::size_t kListed = 10;
+
+/// How a list goes on of which kListed are told.
+std::string and_more(std::size_t count) {
+  return count > kListed ? fmt::format(" and {} more", count - kListed) : std::string();
+}
 
 /// Lengths of a result as the operator reads them.
 std::string length(const Result& result, double mm) {
@@ -30,36 +37,37 @@ std::string_view what_to_do(const ResultPoint& point) {
 
 std::string region_line(const Result& result, Region region, const char* name) {
   std::size_t out = 0;
-  const ResultPoint* worst = nullptr;
+  std::optional<ResultPoint> worst;
   for (const ResultPoint& point : result.points) {
     if (point.region != region || point.state != PointState::out) continue;
     ++out;
-    if (worst == nullptr || std::abs(point.distance) > std::abs(worst->distance)) worst = &point;
+    if (!worst || std::abs(point.distance) > std::abs(worst->distance)) worst = point;
   }
-  if (worst == nullptr) return fmt::format("no {} point out\n", name);
+  if (!worst) return fmt::format("no {} point out\n", name);
   return fmt::format("{} {} {} out; worst {}, {}\n", out, name, out == 1 ? "point" : "points", where(result, *worst),
                      what_to_do(*worst));
 }
 
 std::string worst_list(const Result& result) {
-  std::vector<const ResultPoint*> out;
+  std::vector<ResultPoint> worst;  // the worst ones first; of points that are as bad, the earlier
+  std::size_t out = 0;
   for (const ResultPoint& point : result.points) {
-    if (point.state == PointState::out && point.region == Region::leading_edge) out.push_back(&point);
+    if (point.state != PointState::out || point.region != Region::leading_edge) continue;
+    ++out;
+    const auto place = std::ranges::upper_bound(worst, std::abs(point.distance), std::greater(),
+                                                [](const ResultPoint& p) { return std::abs(p.distance); });
+    worst.insert(place, point);
+    if (worst.size() > kListed) worst.pop_back();
   }
-  std::stable_sort(out.begin(), out.end(), [](const ResultPoint* a, const ResultPoint* b) {
-    return std::abs(a->distance) > std::abs(b->distance);
-  });
   std::string text;
-  for (std::size_t k = 0; k < std::min(out.size(), kListed); ++k) {
-    const ResultPoint& point = *out[k];
+  for (const ResultPoint& point : worst) {
     text += fmt::format("  point {:>5}  {:<4}  {}  (patch {}, u {:.4f}, v {:.4f})\n", point.sequence,
                         word_of(point.action), where(result, point), point.patch, point.u, point.v);
   }
-  if (out.size() > kListed) text += fmt::format("  and {} more\n", out.size() - kListed);
-  return text;
+  return out > kListed ? text + " " + and_more(out) + "\n" : text;
 }
 
-/// "3 suspected outliers (beyond 3.9 sigma, sigma = 0.01 mm): 18 (+3.001 mm, +20.1) ..."
+/// "3 suspected outliers (beyond 3.9 sigma, sigma = 0.01 mm): 18 (+3.001 mm, +20.1) and 2 more"
 std::string outlier_line(const Result& result) {
   const Outliers& outliers = result.outliers;
   if (outliers.points.empty()) return "";
@@ -71,10 +79,10 @@ std::string outlier_line(const Result& result) {
     text += fmt::format("{} {} ({:+.3f} {}, {:+.1f})", k == 0 ? "" : ",", p.sequence, result.in_units(p.distance),
                         result.units, p.studentized);
   }
-  return text + (outliers.points.size() > kListed ? " ...\n" : "\n");
+  return text + and_more(outliers.points.size()) + "\n";
 }
 
-/// "A robust fit judges 34 points otherwise: 12, 13 ...".
+/// "A robust fit judges 34 points otherwise: 12, 13 and 32 more".
 std::string robust_line(const Result& result) {
   const std::vector<std::uint32_t>& points = result.judged_otherwise;
   if (points.empty()) return "";
@@ -83,7 +91,7 @@ std::string robust_line(const Result& result) {
       "A robust fit judges {} {} otherwise: {}{}; defects that lie together draw a least-squares fit towards "
       "themselves: compare with --loss tukey\n",
       points.size(), points.size() == 1 ? "point" : "points", fmt::join(points.begin(), points.begin() + told, ", "),
-      points.size() > kListed ? " ..." : "");
+      and_more(points.size()));
 }
 
 /// Settings that a reader of the figures must know, and the points that do not belong to the others.

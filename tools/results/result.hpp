@@ -14,6 +14,7 @@
 #include "core/localizer.hpp"
 #include "firmware_bridge/host/journal/journal_format.hpp"
 #include "firmware_bridge/host/threads/stream_losses.hpp"
+#include "tools/files/rows.hpp"
 #include "tools/results/verdict_reason.hpp"
 
 namespace bladefit {
@@ -123,7 +124,7 @@ struct Result {
   std::optional<LossUsed> loss;
   Outliers outliers;
   std::vector<std::uint32_t> judged_otherwise;  ///< points that a robust fit finds in instead of out, or the reverse
-  std::vector<ResultPoint> points;              ///< rising sequence
+  Rows<ResultPoint> points;                     ///< rising sequence
   std::optional<FitDetails> details;
 
   /// A length of this result in the units in which it is written.

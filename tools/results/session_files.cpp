@@ -62,8 +62,7 @@ std::string read_part(const fs::path& folder, const char* name, const JournalCon
   return text;
 }
 
-void check_same_run(const std::string& directory, const std::vector<ResultPoint>& result,
-                    const std::vector<ResultPoint>& points) {
+void check_same_run(const std::string& directory, const Rows<ResultPoint>& result, const Rows<ResultPoint>& points) {
   const bool same = std::equal(
       result.begin(), result.end(), points.begin(), points.end(),
       [](const ResultPoint& a, const ResultPoint& b) { return a.sequence == b.sequence && a.state == b.state; });
@@ -84,8 +83,7 @@ std::uint32_t newest_point(const JournalContent& journal) {
 }
 
 /// A session that was resumed leaves the result of its earlier part until it ends.
-void check_up_to_date(const std::string& directory, const JournalContent& journal,
-                      const std::vector<ResultPoint>& points) {
+void check_up_to_date(const std::string& directory, const JournalContent& journal, const Rows<ResultPoint>& points) {
   const std::uint32_t recorded = newest_point(journal);
   const std::uint32_t judged = points.empty() ? 0 : points.back().sequence;
   if (recorded == judged) return;
@@ -135,7 +133,7 @@ Result read_session(const std::string& directory) {
   const std::string text = read_part(folder, kResultFile, journal);
   const std::string verdicts = read_part(folder, kVerdictsFile, journal);
   Result result = parse_result(folder / kResultFile, text);
-  std::vector<ResultPoint> points = parse_verdicts(folder / kVerdictsFile, verdicts);
+  Rows<ResultPoint> points = parse_verdicts(folder / kVerdictsFile, verdicts);
   check_same_run(directory, result.points, points);
   check_up_to_date(directory, journal, points);
   result.name = fs::weakly_canonical(folder).filename().string();

@@ -119,13 +119,13 @@ ResultPoint point_of(const Row& row) {
 
 }  // namespace
 
-std::string verdicts_csv(const std::vector<ResultPoint>& points) {
+std::string verdicts_csv(const Rows<ResultPoint>& points) {
   std::string text;
   write_verdicts_csv(points, [&text](std::string_view piece) { text += piece; });
   return text;
 }
 
-void write_verdicts_csv(const std::vector<ResultPoint>& points, const Put& put) {
+void write_verdicts_csv(const Rows<ResultPoint>& points, const Put& put) {
   put(fmt::format("{}\n", fmt::join(kColumns, ",")));
   for (const ResultPoint& point : points) {
     put(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u,
@@ -136,8 +136,8 @@ void write_verdicts_csv(const std::vector<ResultPoint>& points, const Put& put) 
   }
 }
 
-std::vector<ResultPoint> parse_verdicts(const std::string& path, std::string_view text) {
-  std::vector<ResultPoint> points;
+Rows<ResultPoint> parse_verdicts(const std::string& path, std::string_view text) {
+  Rows<ResultPoint> points;
   for (std::size_t line = 1; !text.empty() || line == 1; ++line) {
     const std::size_t end = text.find('\n');
     const Row row = cut(path, line, text.substr(0, end));

@@ -10,13 +10,13 @@ namespace bladefit {
 
 /// verdicts.csv: one line a point, lengths in mm, distances and feet in the design frame, x, y, z as measured. Numbers
 /// are written so that they read back as the same bits.
-[[nodiscard]] std::string verdicts_csv(const std::vector<ResultPoint>& points);
+[[nodiscard]] std::string verdicts_csv(const Rows<ResultPoint>& points);
 
 /// The same, line by line.
-void write_verdicts_csv(const std::vector<ResultPoint>& points, const Put& put);
+void write_verdicts_csv(const Rows<ResultPoint>& points, const Put& put);
 
 /// Reads the text of a verdicts.csv, of which `path` is the name in errors. Throws ToolError (bad_input) that names the
 /// line, the column and the fix.
-[[nodiscard]] std::vector<ResultPoint> parse_verdicts(const std::string& path, std::string_view text);
+[[nodiscard]] Rows<ResultPoint> parse_verdicts(const std::string& path, std::string_view text);
 
 }  // namespace bladefit

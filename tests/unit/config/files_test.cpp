@@ -161,7 +161,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"kind = \"dro\"\n[dro]\ndecimal_mark = \",\"\n", ":2: key 'dro.separators': has the decimal mark ','"},
         BadFile{"kind = \"replay\"\n[replay]\nfile = \"\"\n", ":3: key 'replay.file': is empty; give a path"},
         BadFile{"kind = \"replay\"\n[replay]\nunits = \"ft\"\n", ":3: key 'replay.units': 'ft' is none of: mm, in"},
-        BadFile{"kind = \"serial\"\nkind = \"dro\"\n", ":2: "}));
+        BadFile{"kind = \"serial\"\nkind = \"dro\"\n", ":2: "},
+        BadFile{"kind = \"serial\"\n[[[line]]]\n", ":2: a table without a name begins here"},
+        BadFile{"kind = \"serial\"\n [=\n", ":2: a table without a name begins here"},
+        BadFile{"kind = \"serial\"\n[\x1b", ":2: a table without a name begins here"}, BadFile{"[", ":1: "},
+        BadFile{"kind = \"serial\" # \xC3\xB6\nm\xC3\xB6 = 1\n", ":2: a letter that is no plain one stands outside"},
+        BadFile{"kind = \"\xC3\xB6\\\"\xC3\xB6\"\n", ":1: key 'kind': '\xC3\xB6\"\xC3\xB6' is none of"},
+        BadFile{"kind = '''\xC3\xB6\n\n'''\xC3\xBF\n", ":3: a letter that is no plain one"},
+        BadFile{"kind = \"serial\"\n[ line ]\nbuad = 1\n", ":3: unknown key 'line.buad'"}));
 
 class SessionErrors : public ::testing::TestWithParam<BadFile> {};
 

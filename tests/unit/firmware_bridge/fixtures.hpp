@@ -107,4 +107,29 @@ class ScriptedSource : public ProbeSource {
   SourceStatus status_;
 };
 
+/// A session's result with its points.
+struct WholeResult : SessionResult {
+  std::vector<ProbePoint> points;
+  std::vector<Verdict> verdicts;  ///< verdicts[i] is that of points[i]
+};
+
+inline WholeResult finish_whole(Host& host) {
+  struct Kept : JudgedPoints {
+    void add(const ProbePoint& point, const Verdict& verdict) override {
+      points.push_back(point);
+      verdicts.push_back(verdict);
+    }
+    void clear() override {
+      points.clear();
+      verdicts.clear();
+    }
+    std::vector<ProbePoint> points;
+    std::vector<Verdict> verdicts;
+  } kept;
+  WholeResult whole{host.finish(kept), {}, {}};
+  whole.points = std::move(kept.points);
+  whole.verdicts = std::move(kept.verdicts);
+  return whole;
+}
+
 }  // namespace bladefit::testing

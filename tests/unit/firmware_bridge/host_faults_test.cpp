@@ -17,15 +17,15 @@ using testing::ScratchFolder;
 using testing::ScriptedSource;
 using testing::settings_for;
 
-SessionResult result_of_session(const HostSettings& settings, ProbeSource& source) {
+testing::WholeResult result_of_session(const HostSettings& settings, ProbeSource& source) {
   Host host(settings, blade(), source, {});
   if (const Failure error = host.start()) {
-    SessionResult failed;
+    testing::WholeResult failed;
     failed.error = error;
     return failed;
   }
   EXPECT_TRUE(host.wait_for_end(60s));
-  return host.finish();
+  return testing::finish_whole(host);
 }
 
 TEST(HostFaults, ALossThatWasToldIsStoredAndAcknowledged) {
@@ -35,7 +35,7 @@ TEST(HostFaults, ALossThatWasToldIsStoredAndAcknowledged) {
   settings.idle = 200ms;
   ScriptedSource source(measured_points(20));
   source.last = 28;
-  const SessionResult result = result_of_session(settings, source);
+  const testing::WholeResult result = result_of_session(settings, source);
   EXPECT_EQ(source.acknowledged, 28U);
   ASSERT_EQ(result.lost.size(), 1U);
   EXPECT_EQ(result.lost[0].first, 21U);
@@ -50,7 +50,7 @@ TEST(HostFaults, ASourceThatCannotGoOnEndsTheSessionWithWhatIsStored) {
   ScriptedSource source(measured_points(50));
   source.stop_after = 20;
   source.stopped = "the numbers begin again";
-  const SessionResult result = result_of_session(settings_for(folder / "session"), source);
+  const testing::WholeResult result = result_of_session(settings_for(folder / "session"), source);
   EXPECT_EQ(result.error.kind, Failure::Kind::device);
   EXPECT_EQ(result.error.message, source.stopped);
   EXPECT_EQ(result.points.size(), 20U);
@@ -65,7 +65,7 @@ TEST(HostFaults, ASessionWhoseFolderIsRemovedEndsAndGivesItsResult) {
   EXPECT_FALSE(host.wait_for_end(300ms));
   std::filesystem::remove_all(folder / "session");
   ASSERT_TRUE(host.wait_for_end(10s));
-  const SessionResult result = host.finish();
+  const testing::WholeResult result = testing::finish_whole(host);
   EXPECT_EQ(result.error.kind, Failure::Kind::device);
   EXPECT_NE(result.error.message.find("was removed during the session"), std::string::npos) << result.error.message;
   EXPECT_EQ(result.verdicts.size(), 20U);
@@ -96,7 +96,7 @@ TEST(HostFaults, WithAFullMemoryEveryPointIsJudgedAtTheFinalPose) {
   HostSettings settings = settings_for(folder / "session");
   settings.localizer.capacity = 64;
   ScriptedSource source(measured_points(400));
-  const SessionResult result = result_of_session(settings, source);
+  const testing::WholeResult result = result_of_session(settings, source);
   ASSERT_FALSE(result.error) << result.error.message;
   EXPECT_TRUE(result.report.memory_full);
   ASSERT_EQ(result.verdicts.size(), 400U);
@@ -118,7 +118,7 @@ TEST(HostFaults, WithAFullMemoryThePanelEndsWithTheCountsOfTheResult) {
   Host host(settings, blade(), source, {});
   ASSERT_FALSE(host.start());
   ASSERT_TRUE(host.wait_for_end(60s));
-  const SessionResult result = host.finish();
+  const testing::WholeResult result = testing::finish_whole(host);
   const auto out = static_cast<std::uint32_t>(std::ranges::count_if(result.verdicts, [](const Verdict& verdict) {
     return verdict.state == PointState::out && verdict.region == Region::leading_edge;
   }));

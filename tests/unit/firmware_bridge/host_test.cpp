@@ -23,24 +23,24 @@ using testing::settings_for;
 
 constexpr std::size_t kPoints = 400;
 
-SessionResult run_to_end(const HostSettings& settings, ProbeSource& source) {
+testing::WholeResult run_to_end(const HostSettings& settings, ProbeSource& source) {
   Host host(settings, blade(), source, {});
   const Failure error = host.start();
   if (error) {
-    SessionResult failed;
+    testing::WholeResult failed;
     failed.end = SessionEnd::failed;
     failed.error = error;
     return failed;
   }
   EXPECT_TRUE(host.wait_for_end(60s));
-  return host.finish();
+  return testing::finish_whole(host);
 }
 
 void expect_same_bits(double left, double right) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(left), std::bit_cast<std::uint64_t>(right));
 }
 
-void expect_same_result(const SessionResult& left, const SessionResult& right) {
+void expect_same_result(const testing::WholeResult& left, const testing::WholeResult& right) {
   for (int entry = 0; entry < 9; ++entry) {
     expect_same_bits(left.report.pose.rotation(entry), right.report.pose.rotation(entry));
   }
@@ -56,7 +56,7 @@ void expect_same_result(const SessionResult& left, const SessionResult& right) {
   }
 }
 
-SessionResult clean_session() {
+testing::WholeResult clean_session() {
   const ScratchFolder folder;
   ScriptedSource source(measured_points(kPoints), 5);
   return run_to_end(settings_for(folder / "session"), source);
@@ -65,7 +65,7 @@ SessionResult clean_session() {
 TEST(BridgeHost, JudgesEveryPointAcknowledgesItAndConverges) {
   const ScratchFolder folder;
   ScriptedSource source(measured_points(kPoints));
-  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  const testing::WholeResult result = run_to_end(settings_for(folder / "session"), source);
   ASSERT_FALSE(result.error) << result.error.message;
   EXPECT_EQ(result.end, SessionEnd::finished);
   EXPECT_EQ(result.report.status, FitStatus::converged);
@@ -76,7 +76,7 @@ TEST(BridgeHost, JudgesEveryPointAcknowledgesItAndConverges) {
 }
 
 TEST(BridgeHost, TheSameStreamInOtherPortionsGivesTheSameBits) {
-  const SessionResult clean = clean_session();
+  const testing::WholeResult clean = clean_session();
   for (const unsigned seed : {1U, 77U, 4000U}) {
     const ScratchFolder folder;
     ScriptedSource source(measured_points(kPoints), seed);
@@ -85,14 +85,14 @@ TEST(BridgeHost, TheSameStreamInOtherPortionsGivesTheSameBits) {
 }
 
 TEST(BridgeHost, AResumedSessionEndsWithTheSameBits) {
-  const SessionResult clean = clean_session();
+  const testing::WholeResult clean = clean_session();
   const ScratchFolder folder;
   HostSettings settings = settings_for(folder / "session");
   for (const std::size_t cut : {3U, 150U, 151U, 399U}) {
     settings.idle = 150ms;
     ScriptedSource source(measured_points(kPoints));
     source.stop_after = cut;
-    const SessionResult partial = run_to_end(settings, source);
+    const testing::WholeResult partial = run_to_end(settings, source);
     EXPECT_EQ(partial.end, SessionEnd::idle);
     EXPECT_EQ(partial.points.size(), cut);
     EXPECT_EQ(source.acknowledged, cut);
@@ -107,7 +107,7 @@ TEST(BridgeHost, AResumedSessionEndsWithTheSameBits) {
 }
 
 TEST(BridgeHost, AJournalTornAnywhereEndsWithTheSameBits) {
-  const SessionResult clean = clean_session();
+  const testing::WholeResult clean = clean_session();
   const ScratchFolder folder;
   const HostSettings settings = settings_for(folder / "session");
   {
@@ -152,7 +152,7 @@ TEST_P(BridgeHostRuns, ASessionOfAnotherRunIsRefused) {
   ASSERT_FALSE(run_to_end(settings, source).error);
   ScriptedSource another_run(measured_points(50));
   another_run.run_id = GetParam().to;
-  const SessionResult refused = run_to_end(settings, another_run);
+  const testing::WholeResult refused = run_to_end(settings, another_run);
   EXPECT_EQ(refused.error.kind, Failure::Kind::bad_input);
   const std::string told = "run " + std::to_string(GetParam().to);
   EXPECT_NE(refused.error.message.find(told), std::string::npos) << refused.error.message;
@@ -164,7 +164,7 @@ TEST_P(BridgeHostRuns, ARunThatRestartsItsNumbersIsAFault) {
   source.stop_after = 20;
   source.run_id = GetParam().from;
   source.later_run_id = GetParam().to;
-  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  const testing::WholeResult result = run_to_end(settings_for(folder / "session"), source);
   EXPECT_EQ(result.error.kind, Failure::Kind::device);
   const std::string told = "started run " + std::to_string(GetParam().to);
   EXPECT_NE(result.error.message.find(told), std::string::npos) << result.error.message;
@@ -175,7 +175,7 @@ TEST(BridgeHost, ASourceThatCannotBeOpenedLeavesNothingBehind) {
   const ScratchFolder folder;
   ScriptedSource source(measured_points(10));
   source.refusal = "the cable is out; put it in";
-  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  const testing::WholeResult result = run_to_end(settings_for(folder / "session"), source);
   EXPECT_EQ(result.error.kind, Failure::Kind::device);
   EXPECT_EQ(result.error.message, source.refusal);
   EXPECT_EQ(result.end, SessionEnd::failed);
@@ -192,7 +192,7 @@ TEST(BridgeHost, AFullDiskIsAFaultAndNothingUnstoredIsAcknowledged) {
   setrlimit(RLIMIT_FSIZE, &small);
   ScriptedSource source(measured_points(kPoints));
   const HostSettings settings = settings_for(folder / "session");
-  const SessionResult result = run_to_end(settings, source);
+  const testing::WholeResult result = run_to_end(settings, source);
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(result.end, SessionEnd::failed);
   EXPECT_EQ(result.error.kind, Failure::Kind::device);
@@ -211,7 +211,7 @@ TEST(BridgeHost, ARecordThatIsNoNumberIsRefusedAndTheRestIsUnchanged) {
   points[30].position[1] = std::numeric_limits<double>::quiet_NaN();
   const ScratchFolder folder;
   ScriptedSource source(points);
-  const SessionResult result = run_to_end(settings_for(folder / "session"), source);
+  const testing::WholeResult result = run_to_end(settings_for(folder / "session"), source);
   EXPECT_EQ(result.refused, std::vector<std::uint32_t>{31});
   EXPECT_EQ(result.points.size(), 59U);
 }
@@ -225,7 +225,7 @@ TEST(BridgeHost, StopsWhenAskedWithAFullResult) {
   EXPECT_FALSE(host.wait_for_end(200ms));
   host.request_stop();
   ASSERT_TRUE(host.wait_for_end(10s));
-  const SessionResult result = host.finish();
+  const testing::WholeResult result = testing::finish_whole(host);
   EXPECT_EQ(result.end, SessionEnd::stopped);
   EXPECT_EQ(result.verdicts.size(), 20U);
 }

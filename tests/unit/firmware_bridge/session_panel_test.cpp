@@ -46,10 +46,10 @@ class WatchedSession {
     modbus_free(line);
   }
 
-  SessionResult stop() {
+  testing::WholeResult stop() {
     host_.request_stop();
     EXPECT_TRUE(host_.wait_for_end(10s));
-    return host_.finish();
+    return testing::finish_whole(host_);
   }
 
   void conclude(const BladeVerdict& verdict) { host_.conclude(verdict); }
@@ -111,7 +111,7 @@ TEST(SessionPanel, StaysWithTheResultOfAnEndedSession) {
   ScriptedSource source(measured_points(kSessionPoints));
   WatchedSession session(source);
   ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.points == kSessionPoints && !shown.ended; }));
-  const SessionResult result = session.stop();
+  const testing::WholeResult result = session.stop();
   session.conclude({BladeState::in_tolerance, {}});
   ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.ended; }));
   EXPECT_EQ(session.panel.verdict, BladeState::in_tolerance);
@@ -126,7 +126,7 @@ TEST(SessionPanel, ShowsTheSession) {
   ASSERT_TRUE(session.shows([](const PanelState& shown) {
     return shown.points == kSessionPoints && shown.session == SessionState::settled;
   }));
-  const SessionResult result = session.stop();
+  const testing::WholeResult result = session.stop();
   const PanelState& state = session.panel;
   EXPECT_EQ(state.leading_edge_out, result.report.leading_edge.judged_out);
   EXPECT_EQ(state.rest_out, result.report.rest.judged_out);

@@ -91,7 +91,7 @@ TEST(SlowDisk, VerdictsGoOnAndNothingIsAcknowledgedAheadOfIt) {
   EXPECT_TRUE(said);
   EXPECT_LT(newest_while_stalled, kCount);
   EXPECT_TRUE(host.wait_for_end(60s));
-  const SessionResult result = host.finish();
+  const testing::WholeResult result = testing::finish_whole(host);
   EXPECT_EQ(result.error.message, "");
   EXPECT_EQ(source.newest.load(), kCount);
   EXPECT_EQ(source.too_early, 0);

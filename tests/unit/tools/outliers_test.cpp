@@ -71,18 +71,22 @@ TEST(OutliersNamed, NobodyWhereTheScaleIsThatOfRounding) {
   FitReport report;
   report.determined = 6;
   report.sigma_mm = 0.005;
-  std::vector<Verdict> verdicts(40);
-  std::vector<ProbePoint> points(40);
+  Rows<Residual> residuals;
   for (std::uint32_t i = 0; i < 40; ++i) {
-    verdicts[i].sequence = points[i].sequence = i + 1;
-    verdicts[i].state = PointState::in;
-    verdicts[i].fitted = true;
-    verdicts[i].foot.distance = 1e-13 * (i % 7);
+    ProbePoint point;
+    Verdict verdict;
+    point.sequence = verdict.sequence = i + 1;
+    verdict.state = PointState::in;
+    verdict.fitted = true;
+    verdict.foot.distance = i == 5 ? 4e-12 : 1e-13 * (i % 7);
+    residuals.push_back(residual_of(point, verdict));
   }
-  verdicts[5].foot.distance = 4e-12;
-  EXPECT_TRUE(find_outliers(report, 150.0, verdicts, points).points.empty());
-  for (Verdict& verdict : verdicts) verdict.foot.distance *= 1e9;
-  EXPECT_EQ(find_outliers(report, 150.0, verdicts, points).points.size(), 1U) << "the same in larger";
+  EXPECT_TRUE(find_outliers(report, 150.0, residuals).points.empty());
+  residuals.change_each([](Residual residual) {
+    residual.distance_mm *= 1e9;
+    return residual;
+  });
+  EXPECT_EQ(find_outliers(report, 150.0, residuals).points.size(), 1U) << "the same in larger";
 }
 
 /// A defect that spreads over a sixth of the points draws the least-squares fit towards itself.

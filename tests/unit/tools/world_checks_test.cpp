@@ -243,12 +243,14 @@ TEST(WorldChecks, AFitMadeElsewhereIsDoubted) {
   FitReport report;
   report.status = FitStatus::converged;
   report.determined = 6;
-  std::vector<Verdict> verdicts(points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    verdicts[k].sequence = points[k].sequence;
-    verdicts[k].state = PointState::in;
+  Rows<JudgedPoint> judged;
+  for (const ProbePoint& point : points) {
+    Verdict verdict;
+    verdict.sequence = point.sequence;
+    verdict.state = PointState::in;
+    judged.push_back({point, verdict});
   }
-  const Result result = result_of(study.design, judging_plan(), points, report, verdicts, {}, "session");
+  const Result result = result_of(study.design, judging_plan(), judged, report, {}, "session");
   expect_undecided(result, Reason::far_start, "--start");
 }
 

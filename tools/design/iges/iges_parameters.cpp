@@ -12,6 +12,7 @@ namespace bladefit {
 namespace {
 
 constexpr std::size_t kParameterColumns = 64;
+constexpr std::size_t kShownOfField = 40;
 
 /// n of a string nHcharacters.
 std::optional<std::size_t> string_length(const std::string& digits) {
@@ -65,7 +66,8 @@ double IgesParameters::real(std::size_t index) const {
   if (index >= fields_.size()) fail(fmt::format("parameter {} is missing", index));
   const Field& field = fields_[index];
   if (const std::optional<double> value = parse_iges_real(field.text)) return *value;
-  fail(fmt::format("parameter {} is \"{}\", which is not a finite number (line {})", index, field.text, field.line));
+  fail(fmt::format("parameter {} is \"{}\", which is not a finite number (line {})", index,
+                   field.text.substr(0, kShownOfField), field.line));
 }
 
 int IgesParameters::integer(std::size_t index, const char* name, int lowest, int highest) const {
@@ -73,8 +75,8 @@ int IgesParameters::integer(std::size_t index, const char* name, int lowest, int
   const Field& field = fields_[index];
   const std::optional<double> value = parse_iges_real(field.text);
   if (!value || *value != std::floor(*value) || *value < lowest || *value > highest) {
-    fail(fmt::format("{} is \"{}\", which is not a whole number in {}..{} (line {})", name, field.text, lowest, highest,
-                     field.line));
+    fail(fmt::format("{} is \"{}\", which is not a whole number in {}..{} (line {})", name,
+                     field.text.substr(0, kShownOfField), lowest, highest, field.line));
   }
   return static_cast<int>(*value);
 }

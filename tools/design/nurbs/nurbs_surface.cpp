@@ -134,6 +134,13 @@ void check_direction(SurfaceDirection& direction, const Context& context) {
   check_multiplicity(direction, context);
 }
 
+/// Weights of which one outweighs all others leave of a surface little but one point.
+void check_weights(const NurbsSurface& surface, const Context& context) {
+  const auto [least, most] = std::ranges::minmax_element(surface.weights);
+  if (surface.weights.empty() || *most <= kLargestWeightRatio * *least) return;
+  context.fail(fmt::format("the weights differ beyond reason, from {} to {}; export the surface again", *least, *most));
+}
+
 void check_net(const NurbsSurface& surface, const Context& context) {
   const auto count =
       static_cast<std::size_t>(surface.u.control_points) * static_cast<std::size_t>(surface.v.control_points);
@@ -157,6 +164,7 @@ void check_net(const NurbsSurface& surface, const Context& context) {
                                surface.weights[k]));
     }
   }
+  check_weights(surface, context);
 }
 
 }  // namespace

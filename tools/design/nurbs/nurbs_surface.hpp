@@ -7,6 +7,9 @@
 
 namespace bladefit {
 
+/// By which the weights of a surface may differ; those of real ones do by less than 100.
+inline constexpr double kLargestWeightRatio = 1e6;
+
 /// One parameter direction of a surface. Control point i weighs on the knots i .. i + degree + 1.
 struct SurfaceDirection {
   int degree = 0;

@@ -13,8 +13,12 @@
 #include <TColStd_HArray1OfReal.hxx>
 #include <TColStd_HArray2OfReal.hxx>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+
+#include "tools/design/nurbs/nurbs_surface.hpp"
 
 namespace bladefit {
 namespace {
@@ -86,13 +90,17 @@ std::string weight_fault(const StepGeom_BSplineSurface& surface, int points_u, i
     return fmt::format("{} x {} weights for {} x {} control points", weights->ColLength(), weights->RowLength(),
                        points_u, points_v);
   }
+  double least = std::numeric_limits<double>::infinity(), most = 0;
   for (int i = 0; i < points_u; ++i) {
     for (int j = 0; j < points_v; ++j) {
       const double weight = weights->Value(weights->LowerRow() + i, weights->LowerCol() + j);
       if (!(weight > 0)) return fmt::format("weight ({}, {}) is {}, but weights must be above 0", i, j, weight);
+      least = std::min(least, weight);
+      most = std::max(most, weight);
     }
   }
-  return {};
+  if (most <= kLargestWeightRatio * least) return {};
+  return fmt::format("its weights differ beyond reason, from {} to {}", least, most);
 }
 
 std::string net_fault(const StepGeom_HArray2OfCartesianPoint& points) {

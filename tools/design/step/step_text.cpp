@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tools/design/step/step_references.hpp"
+#include "tools/design/step/step_words.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -19,6 +20,7 @@ constexpr std::string_view kLast = "END-ISO-10303-21;";
 constexpr std::string_view kBlank{" \t\r\n\f\v\x1a\0", 8};
 /// Parentheses inside each other: real files have less than ten, and the library's parser needs memory for each.
 constexpr int kMaxDepth = 100;
+constexpr std::size_t kQuoted = 40;
 
 std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
@@ -55,7 +57,7 @@ class TokenScanner {
     if (c == '/' && next == '*') return skip_past("*/", "comment");
     if (c == '.' && is_word_start(next)) return skip_past(".", "enumeration");
     if (c == '#') return take_instance();
-    if (is_word_start(c)) return take_while(is_word, 0);
+    if (is_word_start(c)) return take_word();
     if (is_digit(c) || c == '-' || c == '+' || c == '.') return take_number();
     count_parentheses(c);
     if (c == '=' && depth_ == 0 && last_instance_ != 0) references_.define(last_instance_, line_);
@@ -68,6 +70,13 @@ class TokenScanner {
     if (c == '(' && ++depth_ > kMaxDepth) fail(fmt::format("more than {} parentheses inside each other", kMaxDepth));
     if (c == ')') --depth_;
     if (depth_ < 0 || (c == ';' && depth_ != 0)) fail("parentheses do not match in the statement that ends here");
+  }
+
+  void take_word() {
+    const std::size_t first = place_;
+    take_while(is_word, 0);
+    const std::string fault = step_word_fault(text_.substr(first, place_ - first), text_.substr(place_));
+    if (!fault.empty()) fail(fault);
   }
 
   template <class Belongs>
@@ -84,7 +93,10 @@ class TokenScanner {
     const auto [stop, error] = std::from_chars(text_.data() + first, text_.data() + place_, number);
     const bool fits = error == std::errc() && number <= std::uint32_t{std::numeric_limits<std::int32_t>::max()};
     if (place_ == first) return;
-    if (!fits) fail(fmt::format("#{} is no number that an instance can have", text_.substr(first, place_ - first)));
+    if (!fits) {
+      fail(fmt::format("#{} is no number that an instance can have",
+                       text_.substr(first, std::min(place_ - first, kQuoted))));
+    }
     if (depth_ == 0) {
       last_instance_ = number;
     } else {
@@ -101,7 +113,7 @@ class TokenScanner {
     double value = 0;
     const auto [stop, error] = std::from_chars(begin, end, value);
     if (error != std::errc() || stop != end || !std::isfinite(value)) {
-      fail(fmt::format("\"{}\" is not a finite number", word));
+      fail(fmt::format("\"{}\" is not a finite number", word.substr(0, kQuoted)));
     }
     const std::size_t exponent = word.find_first_of("eE");
     if (exponent == std::string_view::npos) return;

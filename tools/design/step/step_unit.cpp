@@ -13,6 +13,8 @@
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <TCollection_HAsciiString.hxx>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -60,6 +62,15 @@ std::optional<LengthUnit> resolve(const Handle(StepBasic_NamedUnit) & unit, int 
   return LengthUnit{count * base->mm, converted->Name().IsNull() ? "unit" : converted->Name()->ToCString()};
 }
 
+/// False for an inch or foot of another length: then one of the two is wrong, and every length with it.
+bool is_what_its_name_says(const LengthUnit& unit) {
+  constexpr double kInch = 25.4, kRounding = 1e-5;
+  std::string name = unit.name;
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const double meant = name == "INCH" || name == "INCHES" ? kInch : name == "FOOT" || name == "FEET" ? 12 * kInch : 0;
+  return meant == 0 || std::abs(unit.mm - meant) <= kRounding * meant;
+}
+
 bool is_length(const Handle(StepBasic_NamedUnit) & unit) {
   return unit->IsKind(STANDARD_TYPE(StepBasic_SiUnitAndLengthUnit)) ||
          unit->IsKind(STANDARD_TYPE(StepBasic_ConversionBasedUnitAndLengthUnit)) ||
@@ -90,6 +101,10 @@ LengthUnit read_step_unit(const StepData_StepModel& model, const std::string& fi
       if (!length) {
         throw ToolError(fmt::format("{}: #{}: unknown unit of length; export the design in mm or inches", file,
                                     model.IdentLabel(unit)));
+      }
+      if (!is_what_its_name_says(*length)) {
+        throw ToolError(fmt::format("{}: #{}: the unit {} is {} mm in this file; export the design in mm or inches",
+                                    file, model.IdentLabel(unit), length->name, length->mm));
       }
       if (found && found->mm != length->mm) {
         throw ToolError(
