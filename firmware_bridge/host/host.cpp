@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "firmware_bridge/host/acquisition.hpp"
+#include "firmware_bridge/host/blade/blade_layout.hpp"
 #include "firmware_bridge/host/fit/fit_stream.hpp"
 #include "firmware_bridge/host/fit/fit_worker.hpp"
 #include "firmware_bridge/host/journal/config_digest.hpp"
@@ -61,8 +62,9 @@ Failure check_identity(const std::string& folder, const JournalSummary& recorded
                   path, which.empty() ? "" : ": ", which));
 }
 
-std::shared_ptr<const Tally> tally_of(const ToleranceMap& tolerance, std::span<const Verdict> verdicts) {
-  auto tally = std::make_shared<Tally>(tolerance);
+std::shared_ptr<const Tally> tally_of(const ToleranceMap& tolerance, const BladeLayout& layout,
+                                      std::span<const Verdict> verdicts) {
+  auto tally = std::make_shared<Tally>(tolerance, layout);
   for (const Verdict& verdict : verdicts) {
     tally->accept(verdict);
     tally->give_up(verdict.sequence);
@@ -83,6 +85,7 @@ struct Host::Running {
   JournalReader recorded;     ///< of what the journal held before
   std::string settings_text;  ///< of this session
   PanelServer server;
+  BladeLayout layout;
   std::unique_ptr<LocalizerMemory> memory;
   Localizer* localizer = nullptr;
   std::optional<Acquisition> acquisition;
@@ -148,7 +151,9 @@ Failure Host::start() {
       settings_.planned};
   running.acquisition.emplace(acquisition, running.recorded, source_, running.journal, shared_);
   running.fit.emplace(*running.localizer, settings_.localizer.capacity, settings_.path_refine_points, shared_);
-  running.publication.emplace(settings_.localizer.tolerance, settings_.axis, running.server, shared_);
+  running.layout = BladeLayout(design_, settings_.localizer, settings_.axis, settings_.tip_radius_mm);
+  running.publication.emplace(settings_.localizer.tolerance, running.layout, settings_.source_name, running.server,
+                              shared_);
   running.panel = std::thread([&running] { running.publication->run(); });
   running.threads.emplace_back([&running] { running.fit->run(); });
   running.threads.emplace_back([&running, this] { write_journal(running.journal, shared_); });
@@ -208,7 +213,8 @@ SessionResult Host::finish() {
   if (unreadable && !result.error) result.error = unreadable;
   if (result.error) result.end = SessionEnd::failed;
   if (shared_.outcome.program_ended()) result.losses.finish();
-  if (result.report.memory_full) running_->judged_again = tally_of(settings_.localizer.tolerance, result.verdicts);
+  if (result.report.memory_full)
+    running_->judged_again = tally_of(settings_.localizer.tolerance, running_->layout, result.verdicts);
   return result;
 }
 
