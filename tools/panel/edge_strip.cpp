@@ -35,15 +35,16 @@ const CellSign& sign_of(char sign) {
   return found != kSigns.end() ? *found : kSigns.back();
 }
 
-/// The sides of the blade, as points in each tenth of r/R that has surface.
+/// A side of the blade: points in each tenth of r/R, from the first one that has surface on.
 void put_side(std::string_view name, std::span<const std::uint16_t> bands, Page& page) {
   constexpr double kTenth = 0.1;
+  const auto has_surface = [](std::uint16_t points) { return points != BladeView::kNoSurface; };
+  const auto first = static_cast<std::size_t>(std::ranges::find_if(bands, has_surface) - bands.begin());
+  if (first == bands.size()) return;
   StyledLine line = page.named(name);
-  line.add("r/R");
-  for (std::size_t band = 0; band < bands.size(); ++band) {
-    if (bands[band] == BladeView::kNoSurface) continue;
-    const std::string text = fmt::format("{:.1f}: {}", kTenth * static_cast<double>(band), bands[band]);
-    line.field(text, bands[band] == 0 ? Style::undecided : Style::plain);
+  line.add(fmt::format("points by tenths from r/R {:.1f}:", kTenth * static_cast<double>(first)), Style::faint);
+  for (const std::uint16_t points : bands.subspan(first)) {
+    line.add(has_surface(points) ? fmt::format(" {}", points) : " -", points == 0 ? Style::undecided : Style::plain);
   }
   page.put(line);
 }

@@ -33,6 +33,9 @@ StyledLine Page::named(std::string_view name) const {
 }
 
 void Page::put_text(std::string_view name, std::string_view text, Style style, std::size_t most) {
+  const int closer = static_cast<int>(name.size()) + 2;
+  if (cells_of(text) > width_ - kValueColumn && cells_of(text) <= width_ - closer)
+    return put(line().add(" ").add(name, Style::faint).add(" ").add(text, style));
   for (std::size_t row = 0; row < most && !text.empty(); ++row) {
     const bool last = row + 1 == most;
     StyledLine made = named(row == 0 ? name : "");

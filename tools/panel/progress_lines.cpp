@@ -12,7 +12,7 @@
 namespace bladefit {
 namespace {
 
-constexpr int kBarCells = 20, kLeastBarWidth = 80;
+constexpr int kBarCells = 10, kLeastBarWidth = 80;
 
 std::string bar(double share) {
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * kBarCells);
@@ -27,7 +27,7 @@ void put_points(const ScreenView& view, Page& page) {
   if (state.planned > 0) {
     line.add(fmt::format("{} of {}", state.points, state.planned), Style::strong);
     const double share = static_cast<double>(state.points) / static_cast<double>(state.planned);
-    if (page.width() >= kLeastBarWidth) line.field(bar(share));
+    if (page.width() >= kLeastBarWidth && !state.ended) line.field(bar(share));
     line.field(fmt::format("{:.0f} %", std::min(kPercent * share, kPercent)));
   } else {
     line.add(fmt::format("{}", state.points), Style::strong);
@@ -97,7 +97,7 @@ void put_progress(const ScreenView& view, Page& page) {
   page.group(1);
   put_points(view, page);
   if (!state.has_blade) return;
-  page.group(2);
+  page.group(3);
   const std::string next = next_words(state.blade);
   if (!next.empty() && !state.ended) {
     StyledLine line = page.named("probe next");

@@ -12,7 +12,8 @@ bool has(const PanelState& state, PanelAlarm alarm) { return (state.alarms & ala
 std::string link_trouble(const PanelState& state) {
   std::string text = "LINK LOST";
   if (state.has_blade) text += fmt::format(" for {}: {}", duration_text(state.link_down_s), state.texts[kSourceText]);
-  return text;
+  const std::string& why = state.texts[kFaultText];
+  return text + (why.empty() ? "; check the cable and the machine" : ": " + why);
 }
 
 std::string gap_trouble(const PanelState& state) {
@@ -50,12 +51,8 @@ void put_trouble(const ScreenView& view, Page& page, int height) {
         most);
   }
   if (state.session == SessionState::fault) put("FAULT: see the machine's own screen and the host's messages", 1);
-  if (has(state, kAlarmLinkLost)) {
-    put(link_trouble(state), 1);
-    const std::string& why = state.texts[kFaultText];
-    page.put_text("", why.empty() ? "check the cable and the machine" : why, Style::plain, most - 1);
-  }
-  if (has(state, kAlarmDataGap)) put(gap_trouble(state), most - 1);
+  if (has(state, kAlarmLinkLost)) put(link_trouble(state), most);
+  if (has(state, kAlarmDataGap) || (state.reasons & kReasonPointsMissing) != 0) put(gap_trouble(state), most - 1);
   if (has(state, kAlarmInfeasible)) put(infeasible_trouble(state), most - 1);
   if (has(state, kAlarmMemoryFull))
     put("MEMORY FULL: older points follow the fit no more; raise capacity in the session file", most - 1);

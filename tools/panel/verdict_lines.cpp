@@ -96,11 +96,10 @@ void put_verdict(const ScreenView& view, Page& page, int height) {
   if (!view.known || !state.has_extension) return page.put(page.named("verdict").add("-"));
   const bool large = height >= (view.utf8 ? kLeastBlockHeight : kLeastSharpHeight);
   if (large) put_large(view, page);
-  page.group(large && state.reasons == 0 ? 3 : 0);
+  page.group(!large ? 0 : state.reasons == 0 ? 3 : 2);
   page.put_text("verdict", verdict_words(state), style_of(state.verdict), height >= kScreenHeight ? 2 : 1);
   page.group(0);
   put_worst(state, page);
-  page.group(1);
   page.put_text("do", advice_words(state), Style::strong, 2);
 }
 
