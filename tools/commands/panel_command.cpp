@@ -47,6 +47,11 @@ void add_panel_command(CLI::App& app, int& exit_code) {
   command->add_option("--connect", *address, "HOST:PORT of the session's panel")->capture_default_str();
   command->add_option("--map", *map, "print the register map that the panel serves, as csv or markdown, and end")
       ->check(CLI::IsMember({"csv", "markdown"}));
+  command->footer(
+      "\nExamples:\n"
+      "  bladefit panel --connect 192.168.0.20:1503\n"
+      "  bladefit panel --big\n"
+      "  bladefit panel --map markdown > registers.md");
   const auto big = std::make_shared<bool>(false);
   command->add_flag("--big", *big, "four lines in block letters, to be read from afar; the key b changes it");
   command->callback([address, map, big, &exit_code] {

@@ -157,6 +157,7 @@ RunPlan plan_run(const RunFlags& flags) {
   plan.source = plan_source(session, flags.session.fit, plan.fit.points);
   check_recording(plan.source, plan.fit);
   plan.json = flags.json;
+  plan.volume = flags.volume;
   // The screen would mix with the result.
   plan.headless = session.headless.value_or(false) || plan.json == "-";
   plan.host.localizer = plan.fit.localizer;

@@ -7,6 +7,7 @@
 #include "drivers/source_settings.hpp"
 #include "firmware_bridge/host/host.hpp"
 #include "tools/batch/fit_options.hpp"
+#include "tools/commands/volume_flags.hpp"
 
 namespace bladefit {
 
@@ -16,6 +17,7 @@ struct RunFlags {
   std::string json;    ///< where to write a copy of result.json; - = standard output
   std::string panel;   ///< HOST:PORT
   std::string plan;    ///< how many points will come, or the file of those that the program will probe
+  Volume volume;
   SessionSettings session;
 };
 
@@ -29,6 +31,7 @@ struct RunPlan {
   bool headless = false;
   std::chrono::milliseconds linger{0};  ///< that the panel stays with the result
   std::string json;
+  Volume volume;
 };
 
 /// Reads the session file, lets the flags win, loads the design and checks everything that can be checked before the

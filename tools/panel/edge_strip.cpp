@@ -18,15 +18,14 @@ struct CellSign {
   EdgeCell cell;
   char sign;
   Style style;
-  std::string_view word;
 };
-constexpr std::array<CellSign, 7> kSigns = {{{EdgeCell::cut, '+', Style::cut, "cut"},
-                                             {EdgeCell::weld, '-', Style::weld, "weld"},
-                                             {EdgeCell::beyond, 'x', Style::undecided, "off the edge"},
-                                             {EdgeCell::undecided, '~', Style::undecided, "undecided"},
-                                             {EdgeCell::pending, '?', Style::undecided, "pending"},
-                                             {EdgeCell::in, 'o', Style::in, "in"},
-                                             {EdgeCell::not_probed, '.', Style::faint, "not probed"}}};
+constexpr std::array<CellSign, 7> kSigns = {{{EdgeCell::cut, '+', Style::cut},
+                                             {EdgeCell::weld, '-', Style::weld},
+                                             {EdgeCell::beyond, 'x', Style::undecided},
+                                             {EdgeCell::undecided, '~', Style::undecided},
+                                             {EdgeCell::pending, '?', Style::undecided},
+                                             {EdgeCell::in, 'o', Style::in},
+                                             {EdgeCell::not_probed, '.', Style::faint}}};
 
 constexpr std::string_view kLegend = "+-o?.~x";  ///< what is seen most stands first
 
@@ -36,12 +35,12 @@ const CellSign& sign_of(char sign) {
 }
 
 /// A side of the blade: points in each tenth of r/R, from the first one that has surface on.
-void put_side(std::string_view name, std::span<const std::uint16_t> bands, Page& page) {
+void put_side(BladeSide side, std::span<const std::uint16_t> bands, Page& page) {
   constexpr double kTenth = 0.1;
   const auto has_surface = [](std::uint16_t points) { return points != BladeView::kNoSurface; };
   const auto first = static_cast<std::size_t>(std::ranges::find_if(bands, has_surface) - bands.begin());
   if (first == bands.size()) return;
-  StyledLine line = page.named(name);
+  StyledLine line = page.named(side_word(side));
   line.add(fmt::format("points by tenths from r/R {:.1f}:", kTenth * static_cast<double>(first)), Style::faint);
   for (const std::uint16_t points : bands.subspan(first)) {
     line.add(has_surface(points) ? fmt::format(" {}", points) : " -", points == 0 ? Style::undecided : Style::plain);
@@ -82,11 +81,12 @@ void put_edge_strip(const ScreenView& view, Page& page) {
   page.put(line.add(tip));
   page.group(4);
   StyledLine legend = page.line();
-  for (const char sign : kLegend) legend.field(fmt::format("{} {}", sign, sign_of(sign).word), sign_of(sign).style);
+  for (const char sign : kLegend)
+    legend.field(fmt::format("{} {}", sign, cell_word(sign_of(sign).cell)), sign_of(sign).style);
   page.put(legend);
   page.group(5);
-  put_side("suction", blade.suction, page);
-  put_side("pressure", blade.pressure, page);
+  put_side(BladeSide::suction, blade.suction, page);
+  put_side(BladeSide::pressure, blade.pressure, page);
 }
 
 }  // namespace bladefit

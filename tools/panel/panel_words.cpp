@@ -56,6 +56,12 @@ std::string region_word(Region region) {
   return word_at(kWords, static_cast<std::size_t>(region));
 }
 
+std::string cell_word(EdgeCell cell) {
+  static constexpr std::array<std::string_view, 7> kWords = {"not probed", "in",        "cut",         "weld",
+                                                             "pending",    "undecided", "off the edge"};
+  return word_at(kWords, static_cast<std::size_t>(cell));
+}
+
 std::string side_word(BladeSide side) {
   static constexpr std::array<std::string_view, 4> kWords = {"", "suction", "pressure", "nose"};
   return word_at(kWords, static_cast<std::size_t>(side));

@@ -12,6 +12,9 @@ namespace bladefit {
 [[nodiscard]] std::string action_word(Action action);
 [[nodiscard]] std::string region_word(Region region);
 
+/// "not probed", "in", "cut" ...
+[[nodiscard]] std::string cell_word(EdgeCell cell);
+
 /// "suction", "pressure", "nose"; empty where it is not known.
 [[nodiscard]] std::string side_word(BladeSide side);
 

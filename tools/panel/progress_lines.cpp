@@ -34,7 +34,7 @@ void put_points(const ScreenView& view, Page& page) {
   }
   if (state.ended) return page.put(line.field("ended: this is the result", Style::strong));
   const double left = seconds_left(view);
-  if (left >= 0) line.field(fmt::format("{} left", duration_text(left)));
+  if (left > 0) line.field(fmt::format("{} left", duration_text(left)));
   const bool waits = !(view.points_per_second > 0);
   line.field(waits ? "waiting for points" : fmt::format("{:.1f} a second", view.points_per_second));
   if (state.rejected > 0) line.field(fmt::format("{} do not count", state.rejected));
@@ -49,12 +49,12 @@ std::string next_words(const BladeView& blade) {
   if (edge) text += "leading edge ";
   const std::string span = span_words(blade, next.ratio), side = side_word(next.side);
   text += span;
-  if (!side.empty()) text += (span.empty() ? "" : ", ") + side + (side == "nose" ? "" : " side");
+  if (!side.empty()) text += (span.empty() ? "" : ", ") + side + (next.side == BladeSide::nose ? "" : " side");
   return text + " r/R " + ratio_text(next.ratio);
 }
 
 /// The bands of a side without points, those next to each other put together.
-void add_bands(std::span<const std::uint16_t> bands, std::string_view side, std::vector<std::string>& regions) {
+void add_bands(std::span<const std::uint16_t> bands, BladeSide side, std::vector<std::string>& regions) {
   std::vector<std::string> stretches;
   for (std::size_t band = 0; band < bands.size(); ++band) {
     if (bands[band] != 0) continue;
@@ -64,7 +64,7 @@ void add_bands(std::span<const std::uint16_t> bands, std::string_view side, std:
     stretches.push_back(
         fmt::format("{:.1f}-{:.1f}", kTenth * static_cast<double>(first), kTenth * static_cast<double>(band + 1)));
   }
-  if (!stretches.empty()) regions.push_back(fmt::format("{} side r/R {}", side, fmt::join(stretches, " ")));
+  if (!stretches.empty()) regions.push_back(fmt::format("{} side r/R {}", side_word(side), fmt::join(stretches, " ")));
 }
 
 }  // namespace
@@ -83,12 +83,13 @@ std::vector<std::string> not_probed(const BladeView& blade) {
     return (blade.edge_root + share * (blade.edge_tip - blade.edge_root)) / blade.tip;
   };
   std::vector<std::string> gaps;
-  for (const EdgeGap& gap : edge_gaps(blade.edge))
-    gaps.push_back(
-        fmt::format("{:.2f}-{:.2f}", static_cast<double>(ratio(gap.first)), static_cast<double>(ratio(gap.end))));
+  for (const EdgeGap& gap : edge_gaps(blade.edge)) {
+    const auto first = static_cast<double>(ratio(gap.first)), end = static_cast<double>(ratio(gap.end));
+    gaps.push_back(fmt::format("{:.2f}-{:.2f}", first, end));
+  }
   if (!gaps.empty()) regions.push_back(fmt::format("leading edge r/R {}", fmt::join(gaps, " ")));
-  add_bands(blade.suction, "suction", regions);
-  add_bands(blade.pressure, "pressure", regions);
+  add_bands(blade.suction, BladeSide::suction, regions);
+  add_bands(blade.pressure, BladeSide::pressure, regions);
   return regions;
 }
 
