@@ -84,6 +84,7 @@ std::vector<std::vector<const Verdict*>> joined(const std::vector<const Verdict*
   std::map<std::size_t, std::vector<const Verdict*>> groups;
   for (std::size_t k = 0; k < points.size(); ++k) groups[sets.first_of(k)].push_back(points[k]);
   std::vector<std::vector<const Verdict*>> sorted;
+  sorted.reserve(groups.size());
   for (auto& [first, group] : groups) sorted.push_back(std::move(group));
   return sorted;
 }

@@ -12,14 +12,14 @@ namespace {
 using hil::Process;
 using testing::ScratchFolder;
 
-const std::string kData = std::string(BLADEFIT_TEST_DATA) + "/dtmb4119/";
+const std::string kMeasuredBlade = std::string(BLADEFIT_TEST_DATA) + "/dtmb4119/";
 
-struct Told {
+struct Spoken {
   std::optional<int> exit_code;
   std::string out, err;
 };
 
-Told tell_of(std::vector<std::string> arguments) {
+Spoken spoken_by(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), BLADEFIT_COMMAND);
   Process command(arguments);
   const std::optional<int> code = command.exit_code();
@@ -27,24 +27,30 @@ Told tell_of(std::vector<std::string> arguments) {
 }
 
 /// The first hundred points, judged.
-Told localize(const ScratchFolder& scratch, const std::vector<std::string>& more) {
+Spoken judge_some(const ScratchFolder& scratch, const std::vector<std::string>& more) {
   std::string rows;
   for (int row = 0; row < 100; ++row) rows += std::to_string(20 * row) + "\n";
   std::ofstream(scratch / "rows.txt") << rows;
-  std::vector<std::string> arguments = {"localize",           "--design",           kData + "design.igs",
-                                        "--points",           kData + "points.csv", "--subset",
-                                        scratch / "rows.txt", "--leading-edge",     "u:0.4:0.6"};
+  std::vector<std::string> arguments = {"localize",
+                                        "--design",
+                                        kMeasuredBlade + "design.igs",
+                                        "--points",
+                                        kMeasuredBlade + "points.csv",
+                                        "--subset",
+                                        scratch / "rows.txt",
+                                        "--leading-edge",
+                                        "u:0.4:0.6"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return tell_of(arguments);
+  return spoken_by(arguments);
 }
 
 TEST(CommandLengths, HaveAUnitOfTheirOwn) {
   const ScratchFolder scratch;
-  const Told inches = localize(scratch, {"--tolerance", "0.004in", "--rest-tolerance", "0.05cm", "--json", "-"});
+  const Spoken inches = judge_some(scratch, {"--tolerance", "0.004in", "--rest-tolerance", "0.05cm", "--json", "-"});
   const nlohmann::json result = nlohmann::json::parse(inches.out);
   EXPECT_NEAR(result.at("regions").at("leading_edge").at("tolerance"), 0.1016, 1e-12) << "in mm, as the design is";
   EXPECT_NEAR(result.at("regions").at("rest").at("tolerance"), 0.5, 1e-12);
-  const Told wrong = localize(scratch, {"--tolerance", "0.1furlong"});
+  const Spoken wrong = judge_some(scratch, {"--tolerance", "0.1furlong"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("--tolerance: '0.1furlong' is not a number, nor one with its unit (mm, in, cm, m)"),
             std::string::npos)
@@ -52,32 +58,32 @@ TEST(CommandLengths, HaveAUnitOfTheirOwn) {
 }
 
 TEST(CommandLengths, OfSamplesAsWell) {
-  const std::vector<std::string> sample = {"sample", kData + "design.igs", "-o", "-",       "--grid",
-                                           "3x3",    "--outward",          "+",  "--offset"};
+  const std::vector<std::string> sample = {
+      "sample", kMeasuredBlade + "design.igs", "-o", "-", "--grid", "3x3", "--outward", "+", "--offset"};
   std::vector<std::string> mm = sample, cm = sample;
   mm.emplace_back("2");
   cm.emplace_back("0.2cm");
-  EXPECT_EQ(tell_of(mm).out, tell_of(cm).out);
+  EXPECT_EQ(spoken_by(mm).out, spoken_by(cm).out);
 }
 
 TEST(CommandVolume, QuietTellsTheVerdictAloneAndVerboseTheTimes) {
   const ScratchFolder scratch;
   const std::vector<std::string> judged = {"--tolerance", "0.1"};
-  const Told usual = localize(scratch, judged);
-  const Told quiet = localize(scratch, {"--tolerance", "0.1", "--quiet"});
+  const Spoken usual = judge_some(scratch, judged);
+  const Spoken quiet = judge_some(scratch, {"--tolerance", "0.1", "--quiet"});
   EXPECT_EQ(quiet.exit_code, usual.exit_code);
   EXPECT_EQ(quiet.out.find("Verdict: "), 0U) << quiet.out;
   EXPECT_EQ(std::ranges::count(quiet.out, '\n'), 1) << quiet.out;
   EXPECT_NE(usual.out.find(quiet.out), std::string::npos);
-  const Told verbose = localize(scratch, {"--tolerance", "0.1", "--verbose"});
+  const Spoken verbose = judge_some(scratch, {"--tolerance", "0.1", "--verbose"});
   EXPECT_NE(verbose.out.find("points fitted and judged: "), std::string::npos) << verbose.out;
-  EXPECT_EQ(localize(scratch, {"--tolerance", "0.1", "--verbose", "--quiet"}).exit_code, 2);
+  EXPECT_EQ(judge_some(scratch, {"--tolerance", "0.1", "--verbose", "--quiet"}).exit_code, 2);
 }
 
 TEST(CommandHelp, HasAnExampleForEachCommand) {
   for (const char* command : {"compile", "localize", "run", "panel", "simulate", "sample", "split", "loft", "show",
                               "report", "recover", "reproduce", "completion"}) {
-    const Told help = tell_of({command, "--help"});
+    const Spoken help = spoken_by({command, "--help"});
     EXPECT_NE(help.out.find(std::string("bladefit ") + command + " "), std::string::npos) << help.out;
   }
 }
