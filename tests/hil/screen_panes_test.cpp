@@ -53,10 +53,9 @@ TEST(ScreenPanes, FitThreeSizesAndFollowKeys) {
     const Pane pane(width, height, {BLADEFIT_COMMAND, "panel", "--connect", address});
     ASSERT_TRUE(pane.shows("200 of 200")) << pane.shown();
     ASSERT_TRUE(pane.shows("session settled")) << pane.shown();
-    const std::string text = pane.shown();
     for (const char* words :
          {"OUT OF TOLERANCE", "mm CUT", "leading edge", "cut or weld the points marked", "root 0.2", "q leaves", "█"}) {
-      EXPECT_NE(text.find(words), std::string::npos) << words << " at " << width << "\n" << text;
+      EXPECT_TRUE(pane.shows(words)) << words << " at " << width << "\n" << pane.shown();
     }
     pane.press("e");
     EXPECT_TRUE(pane.shows("degrees of freedom known")) << pane.shown();
