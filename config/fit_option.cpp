@@ -7,17 +7,13 @@
 #include <cmath>
 #include <utility>
 
-#include "drivers/replay/points_csv.hpp"
-
 namespace bladefit {
 namespace {
 
 using S = FitSettings;
 using C = LocalizerConfig;
 
-constexpr double kLargest = 1e9;  ///< accepted length [units] or ratio
-
-constexpr NumberOption length_above_0(std::optional<double> S::*value) { return {value, 0, kLargest, true}; }
+constexpr LengthOption length_above_0(std::optional<Length> S::*value) { return {value, true}; }
 
 /// The zones that are boxes; the others depend on the design.
 void apply_boxes(const S& s, double /*mm*/, C& c) {
@@ -30,13 +26,13 @@ void apply_boxes(const S& s, double /*mm*/, C& c) {
 /// `ratio` has two uses here: it gives the rest tolerance where that is not given, and it is the ratio that the mode
 /// min_tolerance holds. In the C interface, which takes both tolerances as lengths, it has the second one only.
 void apply_tolerance(const S& s, double mm, C& c) {
-  c.tolerance.leading_edge_mm = *s.tolerance * mm;
+  c.tolerance.leading_edge_mm = s.tolerance->in_mm(mm);
   c.tolerance.rest_mm = s.ratio.value_or(c.ratio) * c.tolerance.leading_edge_mm;
 }
 
 /// Two tolerances give the ratio of min_tolerance where it is not given itself.
 void apply_rest_tolerance(const S& s, double mm, C& c) {
-  c.tolerance.rest_mm = *s.rest_tolerance * mm;
+  c.tolerance.rest_mm = s.rest_tolerance->in_mm(mm);
   const bool wanted = c.mode == FitMode::min_tolerance && s.tolerance && !s.ratio;
   if (wanted) c.ratio = c.tolerance.rest_mm / c.tolerance.leading_edge_mm;
 }
@@ -80,7 +76,7 @@ constexpr std::array kOptions{
     FitOption{"rest_tolerance", length_above_0(&S::rest_tolerance), apply_rest_tolerance,
               "distance allowed on the rest of the blade, in units (default: ratio times that at the leading edge)",
               "1.0"},
-    FitOption{"ratio", NumberOption{&S::ratio, 1, kLargest}, [](const S& s, double, C& c) { c.ratio = *s.ratio; },
+    FitOption{"ratio", NumberOption{&S::ratio, 1, kLargestGiven}, [](const S& s, double, C& c) { c.ratio = *s.ratio; },
               "rest tolerance / leading-edge tolerance (default 10): gives the rest tolerance where that is not given, "
               "and is the ratio that min_tolerance holds",
               "10.0", true},
@@ -102,13 +98,14 @@ constexpr std::array kOptions{
               "[\"SUCTION\", \"PRESSURE\"]"},
     FitOption{"allow_missing", FlagOption{&S::allow_missing}, nullptr,
               "go on without the faces of the design that cannot be read", "true"},
-    FitOption{"probe_radius", NumberOption{&S::probe_radius, 0, kLargest},
-              [](const S& s, double mm, C& c) { c.probe_radius_mm = *s.probe_radius * mm; },
+    FitOption{"probe_radius", LengthOption{&S::probe_radius},
+              [](const S& s, double mm, C& c) { c.probe_radius_mm = s.probe_radius->in_mm(mm); },
               "points are centres of a ball of this radius, in units (default 0)", "0.0", true},
-    FitOption{"units", ChoiceOption<Unit>{&S::units, kUnitWords}, nullptr,
-              "mm, in, cm or m: of all lengths given and written (default: those of the design file; points whose file "
-              "says its unit with the names of its columns are in that)",
-              "\"mm\""},
+    FitOption{
+        "units", ChoiceOption<Unit>{&S::units, kUnitWords}, nullptr,
+        "mm, in, cm or m: of all lengths that are given without one (0.1mm has one), and of those written (default: "
+        "those of the design file; points whose file says its unit with the names of its columns are in that)",
+        "\"mm\""},
     FitOption{"columns", ColumnsOption{&S::columns}, nullptr,
               "what the columns of the points file are where its first line does not say it: x, y, z and optionally i, "
               "j, k, path, weight in their order, - for one that is not used",
@@ -130,7 +127,7 @@ constexpr std::array kOptions{
               "(tukey)",
               "\"none\"", true},
     FitOption{"loss_scale", length_above_0(&S::loss_scale),
-              [](const S& s, double mm, C& c) { c.loss_scale_mm = *s.loss_scale * mm; },
+              [](const S& s, double mm, C& c) { c.loss_scale_mm = s.loss_scale->in_mm(mm); },
               "standard deviation of good points, in units (default: 1.4826 times the median distance)", "0.05"},
     FitOption{"start", PathOption{&S::start, kSearchStart}, nullptr,
               "CSV file of at least 3 point pairs, columns [name,]x,y,z,design_x,design_y,design_z in units: the pose "
@@ -148,7 +145,7 @@ constexpr std::array kOptions{
         "uncertainty or the mpe",
         "\"simple\""},
     FitOption{"probe_uncertainty", length_above_0(&S::probe_uncertainty),
-              [](const S& s, double mm, C& c) { c.decision.probe_mm = *s.probe_uncertainty * mm; },
+              [](const S& s, double mm, C& c) { c.decision.probe_mm = s.probe_uncertainty->in_mm(mm); },
               "standard uncertainty of a distance that comes from the probe, in units", "0.002"},
     FitOption{
         "mpe", MpeOption{&S::mpe}, apply_mpe,
@@ -172,100 +169,6 @@ constexpr std::array kOptions{
 };
 
 }  // namespace
-
-Failure set(const NumberOption& option, double given, FitSettings& settings) {
-  const bool inside = given >= option.low && given <= option.high && !(option.above && given == option.low);
-  if (inside) {
-    settings.*option.value = given;
-    return {};
-  }
-  if (option.above)
-    return bad_input(fmt::format("{} is out of range; give one above {}, up to {}", given, option.low, option.high));
-  if (option.high == kLargest && option.low == 0)
-    return bad_input(fmt::format("{} is out of range; give 0 or more, up to {}", given, option.high));
-  return bad_input(fmt::format("{} is out of range; give a number from {} to {}", given, option.low, option.high));
-}
-
-Failure find_word(std::span<const std::string_view> words, std::string_view text, std::size_t& place) {
-  const auto found = std::ranges::find(words, text);
-  if (found == words.end()) return bad_input(fmt::format("'{}' is none of: {}", text, fmt::join(words, ", ")));
-  place = static_cast<std::size_t>(found - words.begin());
-  return {};
-}
-
-Failure set(const ZonesOption& option, const std::vector<std::string>& given, FitSettings& settings) {
-  if (given.size() > ToleranceMap::kMaxBoxes)
-    return bad_input(fmt::format("{} zones, at most {} are possible", given.size(), ToleranceMap::kMaxBoxes));
-  std::vector<EdgeZone> zones(given.size());
-  for (std::size_t k = 0; k < given.size(); ++k) {
-    if (const Failure error = parse_edge_zone(given[k], zones[k])) return error;
-  }
-  settings.*option.value = std::move(zones);
-  return {};
-}
-
-Failure set(const PlaceOption& option, const std::string& given, FitSettings& settings) {
-  Vec3 place;
-  if (const Failure error = parse_place(given, place)) return error;
-  settings.*option.value = place;
-  return {};
-}
-
-Failure set(const OutwardKind& option, const std::string& given, FitSettings& settings) {
-  OutwardChoice choice;
-  if (const Failure error = parse_outward(given, choice)) return error;
-  settings.*option.value = std::move(choice);
-  return {};
-}
-
-Failure set(const NamesOption& option, const std::vector<std::string>& given, FitSettings& settings) {
-  settings.*option.value = given;
-  return {};
-}
-
-Failure set(const WindowOption& option, const std::string& given, FitSettings& settings) {
-  ParameterWindow window;
-  if (const Failure error = parse_window(given, window)) return error;
-  settings.*option.value = window;
-  return {};
-}
-
-Failure set(const LocksOption& option, const std::string& given, FitSettings& settings) {
-  std::uint8_t locked = 0;
-  if (const Failure error = parse_lock(given, locked)) return error;
-  settings.*option.value = locked;
-  return {};
-}
-
-Failure set(const MpeOption& option, const std::string& given, FitSettings& settings) {
-  ProbeError error;
-  if (const Failure failure = parse_mpe(given, error)) return failure;
-  settings.*option.value = error;
-  return {};
-}
-
-Failure set(const AxisOption& option, const std::string& given, FitSettings& settings) {
-  ShaftAxis axis;
-  if (const Failure error = parse_axis(given, axis)) return error;
-  settings.*option.value = axis;
-  return {};
-}
-
-Failure set(const PathOption& option, const std::string& given, FitSettings& settings) {
-  settings.*option.value = given;
-  return {};
-}
-
-Failure set(const ColumnsOption& option, const std::string& given, FitSettings& settings) {
-  if (const Failure error = check_point_columns(given)) return error;
-  settings.*option.value = given;
-  return {};
-}
-
-Failure set(const FlagOption& option, bool given, FitSettings& settings) {
-  settings.*option.value = given;
-  return {};
-}
 
 std::span<const FitOption> fit_options() { return kOptions; }
 

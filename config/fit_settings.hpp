@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/fit_text.hpp"
+#include "config/length.hpp"
 #include "config/outward_option.hpp"
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/loss.hpp"
@@ -24,28 +25,28 @@ struct FitSettings {
   std::optional<std::vector<EdgeZone>> leading_edge;  ///< at most ToleranceMap::kMaxBoxes
   std::optional<Vec3> leading_edge_near;              ///< a place by that of the ridges which is the leading edge
   std::optional<Rotation> rotation;                   ///< by which the leading edge is found
-  std::optional<double> tolerance;                    ///< |distance| allowed at the leading edge
-  std::optional<double> rest_tolerance;               ///< |distance| allowed elsewhere
+  std::optional<Length> tolerance;                    ///< |distance| allowed at the leading edge
+  std::optional<Length> rest_tolerance;               ///< |distance| allowed elsewhere
   std::optional<double> ratio;                        ///< rest tolerance / leading-edge tolerance
   std::optional<double> transition;                   ///< width of the zone between them [patch parameter]
   std::optional<ParameterWindow> window;
   std::optional<OutwardChoice> outward;
   std::optional<std::vector<std::string>> face;  ///< faces of the design that are used; numbers, names, patterns
   std::optional<bool> allow_missing;             ///< faces that cannot be read are left out
-  std::optional<double> probe_radius;
+  std::optional<Length> probe_radius;
   std::optional<Unit> units;
   std::optional<std::string> columns;  ///< of the points file, as check_point_columns() takes them
   std::optional<RegionPolicy> regions;
   std::optional<EdgePolicy> edges;
   std::optional<std::uint8_t> lock;  ///< bits of motion_lock.hpp, not all of them
   std::optional<Loss> loss;
-  std::optional<double> loss_scale;  ///< standard deviation of good points
+  std::optional<Length> loss_scale;  ///< standard deviation of good points
   std::optional<std::string> start;  ///< file of point pairs that give the start pose, or kSearchStart
   std::optional<ShaftAxis> axis;     ///< its point in `units`
-  std::optional<double> tip_radius;  ///< R of r/R
+  std::optional<Length> tip_radius;  ///< R of r/R
   std::optional<bool> ignore_approach;
   std::optional<DecisionRule> decision;
-  std::optional<double> probe_uncertainty;  ///< standard uncertainty of a distance that comes from the probe
+  std::optional<Length> probe_uncertainty;  ///< standard uncertainty of a distance that comes from the probe
   std::optional<ProbeError> mpe;            ///< largest error of the machine, from its data sheet
   std::optional<double> coverage_factor;
   std::optional<double> least_points;  ///< judged points that each leading-edge zone needs; a whole number

@@ -215,6 +215,18 @@ void TableReader::read(std::string_view key, double& value, NumberRange range) {
   if (read_number(key, number, range, false)) value = number;
 }
 
+void TableReader::read(std::string_view key, Length& value) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return;
+  if (!node->is_string()) {
+    Length length;
+    read(key, length.value);
+    if (good()) value = length;
+  } else if (const Failure error = parse_length(node->as_string()->get(), value)) {
+    fail(key, error.message);
+  }
+}
+
 std::string TableReader::from_folder(const std::string& path) const {
   if (path == "-") return path;
   return std::filesystem::path(document_->name).parent_path() / path;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/length.hpp"
 #include "config/toml_error.hpp"
 #include "drivers/source/failure.hpp"
 
@@ -42,6 +43,7 @@ class TableReader {
   void read(std::string_view key, std::vector<std::string>& value);
   void read(std::string_view key, double& value);  ///< whatever number
   void read(std::string_view key, double& value, NumberRange range);
+  void read(std::string_view key, Length& value);  ///< a number, or a text such as "0.1mm"
 
   /// A whole number within the range.
   template <typename Integer>

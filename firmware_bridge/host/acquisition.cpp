@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <thread>
 
@@ -14,6 +15,12 @@ constexpr std::chrono::milliseconds kPollTimeout{10};
 constexpr std::chrono::milliseconds kRoomPause{1};
 constexpr std::chrono::milliseconds kStoreWait{100};
 constexpr std::size_t kPollPoints = 64;
+
+template <std::size_t size>
+void copy_words(const std::string& text, std::array<char, size>& words) {
+  words.fill(0);
+  std::copy_n(text.begin(), std::min(text.size(), size - 1), words.begin());
+}
 
 }  // namespace
 
@@ -119,9 +126,15 @@ void Acquisition::follow_source() {
   const SourceStatus& status = source_.status();
   announce_changes(status);
   take_losses(status);
-  const std::uint32_t planned = status.planned != 0 ? status.planned : settings_.planned;
-  shared_.link_figures.publish(
-      {status.link, status.losses, shared_.requests.pause.load(), status.device_fault, planned});
+  LinkFigures figures{.link = status.link,
+                      .losses = status.losses,
+                      .paused = shared_.requests.pause.load(),
+                      .device_fault = status.device_fault,
+                      .planned = status.planned != 0 ? status.planned : settings_.planned,
+                      .since = announced_.since};
+  copy_words(status.last_fault, figures.fault);
+  copy_words(status.last_loss, figures.loss);
+  shared_.link_figures.publish(figures);
   if (!status.finished || finish_taken_) return;
   finish_taken_ = true;
   StreamEvent finish{EventKind::finished, {}};
@@ -164,6 +177,7 @@ void Acquisition::announce_changes(const SourceStatus& status) {
                                               : "the device's fault is over");
   }
   announced_.fault = status.device_fault;
+  if (status.link != announced_.link) announced_.since = Clock::now();
   announced_.link = status.link;
   announced_.losses = status.losses;
   if (announce) shared_.to_publication.wakeup.signal();

@@ -74,6 +74,7 @@ class Acquisition {
   /// What was last told of the source.
   struct Announced {
     LinkState link = LinkState::up;
+    Clock::time_point since = Clock::now();  ///< that state
     bool fault = false;
     std::uint64_t losses = 0;
     std::size_t remarks = 0;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "firmware_bridge/host/acquisition.hpp"
+#include "firmware_bridge/host/blade/blade_layout.hpp"
 #include "firmware_bridge/host/fit/fit_stream.hpp"
 #include "firmware_bridge/host/fit/fit_worker.hpp"
 #include "firmware_bridge/host/journal/config_digest.hpp"
@@ -64,8 +65,8 @@ Failure check_identity(const std::string& folder, const JournalSummary& recorded
 /// Counts the points on their way.
 class CountedPoints : public JudgedPoints {
  public:
-  CountedPoints(const ToleranceMap& tolerance, JudgedPoints& to)
-      : to_(to), tally_(std::make_shared<Tally>(tolerance)) {}
+  CountedPoints(const ToleranceMap& tolerance, const BladeLayout& layout, JudgedPoints& to)
+      : to_(to), tally_(std::make_shared<Tally>(tolerance, layout)) {}
 
   void add(const ProbePoint& point, const Verdict& verdict) override {
     tally_->accept(verdict);
@@ -96,6 +97,7 @@ struct Host::Running {
   JournalReader recorded;     ///< of what the journal held before
   std::string settings_text;  ///< of this session
   PanelServer server;
+  BladeLayout layout;
   std::unique_ptr<LocalizerMemory> memory;
   Localizer* localizer = nullptr;
   std::optional<Acquisition> acquisition;
@@ -161,7 +163,9 @@ Failure Host::start() {
       settings_.planned};
   running.acquisition.emplace(acquisition, running.recorded, source_, running.journal, shared_);
   running.fit.emplace(*running.localizer, settings_.localizer.capacity, settings_.path_refine_points, shared_);
-  running.publication.emplace(settings_.localizer.tolerance, settings_.axis, running.server, shared_);
+  running.layout = BladeLayout(design_, settings_.localizer, settings_.axis, settings_.tip_radius_mm);
+  running.publication.emplace(settings_.localizer.tolerance, running.layout, settings_.source_name, running.server,
+                              shared_);
   running.panel = std::thread([&running] { running.publication->run(); });
   running.threads.emplace_back([&running] { running.fit->run(); });
   running.threads.emplace_back([&running, this] { write_journal(running.journal, shared_); });
@@ -214,7 +218,7 @@ SessionResult Host::finish(JudgedPoints& points) {
     if (!unreadable) unreadable = broken;
   }
   result.report = localizer.fit();
-  CountedPoints counted(settings_.localizer.tolerance, points);
+  CountedPoints counted(settings_.localizer.tolerance, running_->layout, points);
   JudgedPoints& to = result.report.memory_full ? counted : points;
   const Failure broken = stored.for_each([&](const StreamEvent& event) { add_event(event, localizer, result, to); });
   if (!unreadable) unreadable = broken;

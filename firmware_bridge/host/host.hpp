@@ -17,7 +17,9 @@ struct HostSettings {
   /// Made when it is missing, and removed again when nothing was put into it. A session in it is resumed.
   std::string session_directory;
   PanelServerSettings panel;
-  ShaftAxis axis;  ///< from which the panel's radii are
+  ShaftAxis axis;            ///< from which the panel's radii are
+  double tip_radius_mm = 0;  ///< R of r/R; 0 = the greatest radius of places all over the design
+  std::string source_name;   ///< where the points come from, for the panel
   /// Stored points projected again when a path ends: bounds how long that makes the next point wait.
   std::uint32_t path_refine_points = 2048;
   bool end_when_finished = false;  ///< end when the device says that its program is finished

@@ -44,6 +44,7 @@ TEST(RunEnds, WithTheResultWhenTheTerminalOfItsScreenIsGone) {
   int terminal = -1;
   const pid_t pid = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (pid == 0) {
+    setenv("TERM", "xterm", 1);
     std::vector<char*> pointers;
     for (const std::string& option : options) pointers.push_back(const_cast<char*>(option.c_str()));
     pointers.push_back(nullptr);
@@ -52,7 +53,7 @@ TEST(RunEnds, WithTheResultWhenTheTerminalOfItsScreenIsGone) {
   }
   std::array<char, 4096> bytes{};
   std::string shown;
-  while (shown.find("judged in") == std::string::npos) {
+  while (shown.find("probe next") == std::string::npos) {
     const ssize_t count = read(terminal, bytes.data(), bytes.size());
     ASSERT_GT(count, 0) << shown;
     shown.append(bytes.data(), static_cast<std::size_t>(count));

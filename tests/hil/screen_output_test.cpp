@@ -48,15 +48,29 @@ TEST(ScreenOutput, NoColorTakesTheColoursOut) {
       run_options(source_of(Link::modbus_tcp, machine.address()), scratch / "session", scratch / "result.json"));
   const std::vector<std::string> panel = {BLADEFIT_COMMAND, "panel", "--connect",
                                           "127.0.0.1:" + std::to_string(panel_port(host))};
-  const std::string enough = "judged in";
-  const std::string plain = on_a_terminal(std::vector<std::string>{"env", "NO_COLOR=1"} + panel, enough);
-  const std::string unset = on_a_terminal(std::vector<std::string>{"env", "-u", "NO_COLOR"} + panel, enough);
-  const std::string empty = on_a_terminal(std::vector<std::string>{"env", "NO_COLOR="} + panel, enough);
+  const std::string enough = "q leaves";
+  const std::vector<std::string> xterm = {"env", "TERM=xterm-256color"};
+  const std::string plain = on_a_terminal(xterm + std::vector<std::string>{"NO_COLOR=1"} + panel, enough);
+  const std::string unset =
+      on_a_terminal(std::vector<std::string>{"env", "-u", "NO_COLOR", "TERM=xterm-256color"} + panel, enough);
+  const std::string empty = on_a_terminal(xterm + std::vector<std::string>{"NO_COLOR="} + panel, enough);
   for (const std::string& output : {plain, unset, empty}) EXPECT_NE(output.find(enough), std::string::npos) << output;
   EXPECT_FALSE(has_colour(plain));
   EXPECT_TRUE(has_colour(unset));
   EXPECT_TRUE(has_colour(empty)) << "an empty NO_COLOR counts as none";
   EXPECT_TRUE(plain.ends_with("\x1b[?25h\x1b[?1049l")) << "the terminal is as it was";
+}
+
+TEST(ScreenOutput, ADumbTerminalGetsLines) {
+  const ScratchFolder scratch;
+  SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints, {"--rate", "100"}));
+  const Process host(
+      run_options(source_of(Link::modbus_tcp, machine.address()), scratch / "session", scratch / "result.json"));
+  const std::string output = on_a_terminal(
+      {"env", "TERM=dumb", BLADEFIT_COMMAND, "panel", "--connect", "127.0.0.1:" + std::to_string(panel_port(host))},
+      "link up");
+  EXPECT_NE(output.find("link up"), std::string::npos) << output;
+  EXPECT_EQ(output.find('\x1b'), std::string::npos) << output;
 }
 
 TEST(ScreenOutput, NoEscapeCodesWhereThereIsNoTerminal) {

@@ -31,19 +31,22 @@ bool beyond_window(const ParameterBox& box, const LocalizerConfig& fit) {
          box.v_min > fit.window_high;
 }
 
-void check_tolerances(const FitSettings& settings, const LocalizerConfig& fit) {
+void check_tolerances(const FitSettings& settings, const FitPlan& plan) {
+  const LocalizerConfig& fit = plan.localizer;
   const ToleranceMap& map = fit.tolerance;
-  if (settings.tolerance && settings.rest_tolerance && *settings.rest_tolerance < *settings.tolerance) {
+  const double unit = plan.mm_per_unit;
+  const double edge = settings.tolerance ? settings.tolerance->in_units(unit) : 0;
+  const double rest = settings.rest_tolerance ? settings.rest_tolerance->in_units(unit) : 0;
+  const bool both = settings.tolerance && settings.rest_tolerance;
+  if (both && rest < edge) {
     throw ToolError(
         fmt::format("--rest-tolerance {:g}: is below --tolerance {:g}; the leading edge is the tighter one: "
                     "exchange the two, or correct one",
-                    *settings.rest_tolerance, *settings.tolerance));
+                    rest, edge));
   }
-  const bool twice = settings.ratio && settings.rest_tolerance && settings.tolerance;
-  if (twice && fit.mode != FitMode::min_tolerance &&
-      *settings.rest_tolerance != *settings.ratio * *settings.tolerance) {
+  if (settings.ratio && both && fit.mode != FitMode::min_tolerance && rest != *settings.ratio * edge) {
     throw ToolError(fmt::format("--ratio {:g} and --rest-tolerance {:g}: both give the rest tolerance; leave one out",
-                                *settings.ratio, *settings.rest_tolerance));
+                                *settings.ratio, rest));
   }
   for (std::uint32_t k = 0; k < map.box_count; ++k) {
     if (map.boxes[k].zone != 0 || !beyond_window(map.boxes[k], fit)) continue;
@@ -62,12 +65,13 @@ void check_decision(const FitSettings& settings) {
 }
 
 /// What the core lets pass but no user can have meant.
-void check_choices(const FitSettings& settings, const LocalizerConfig& fit) {
+void check_choices(const FitSettings& settings, const FitPlan& plan) {
+  const LocalizerConfig& fit = plan.localizer;
   if (fit.mode == FitMode::min_tolerance && fit.tolerance.box_count == 0)
     throw ToolError("--mode min_tolerance: no leading edge is given; add --leading-edge, or use --mode minimax");
   if (fit.loss == Loss::none && settings.loss_scale)
     throw ToolError("--loss-scale: there is no loss; add --loss huber or tukey");
-  check_tolerances(settings, fit);
+  check_tolerances(settings, plan);
   check_decision(settings);
 }
 
@@ -115,18 +119,19 @@ void plan_start(const std::string& path, FitPlan& plan) {
 /// The axis in mm, and R.
 void plan_radii(const FitSettings& settings, FitPlan& plan) {
   if (settings.axis) plan.axis = {settings.axis->point * plan.mm_per_unit, settings.axis->direction};
-  if (settings.tip_radius) plan.tip_radius_mm = *settings.tip_radius * plan.mm_per_unit;
+  if (settings.tip_radius) plan.tip_radius_mm = settings.tip_radius->in_mm(plan.mm_per_unit);
 }
 
 /// Distances as large as the blade judge nothing.
 void check_sizes(const FitSettings& settings, const FitPlan& plan, double longest_mm) {
-  using Length = std::pair<const char*, std::optional<double>>;
-  for (const auto& [flag, length] : {Length{"--tolerance", settings.tolerance},
+  using Given = std::pair<const char*, std::optional<Length>>;
+  for (const auto& [flag, length] : {Given{"--tolerance", settings.tolerance},
                                      {"--loss-scale", settings.loss_scale},
                                      {"--probe-uncertainty", settings.probe_uncertainty}}) {
-    if (!length || *length * plan.mm_per_unit <= longest_mm) continue;
+    if (!length || length->in_mm(plan.mm_per_unit) <= longest_mm) continue;
     throw ToolError(fmt::format("{}: {:g} {} is more than the blade's longest side, {:.4g} {}; correct it or its unit",
-                                flag, *length, plan.units, longest_mm / plan.mm_per_unit, plan.units));
+                                flag, length->in_units(plan.mm_per_unit), plan.units, longest_mm / plan.mm_per_unit,
+                                plan.units));
   }
 }
 
@@ -166,7 +171,7 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   apply_fit_options(settings, plan.mm_per_unit, plan.localizer);
   plan_radii(settings, plan);
   plan_auto_zones(settings, Surface(design), plan);
-  check_choices(settings, plan.localizer);
+  check_choices(settings, plan);
   const ToleranceMap& map = plan.localizer.tolerance;
   if (settings.tolerance && map.box_count == 0) {
     plan.note += fmt::format("no --leading-edge is given: the whole blade is held to the rest tolerance, {:g} {}\n",

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "tools/commands/length_flag.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -18,7 +19,9 @@ CLI::Option* add_flag(CLI::App& command, const FitOption& option, const Kind& ki
   const auto take = [flag, &kind, &flags](const Given& given) {
     if (const Failure error = set(kind, given, flags)) throw ToolError(flag + ": " + error.message);
   };
-  if constexpr (std::is_same_v<Given, bool>) {
+  if constexpr (std::is_same_v<Given, Length>) {
+    return add_length_flag(command, flag, take, help);
+  } else if constexpr (std::is_same_v<Given, bool>) {
     return command.add_flag_callback(
         flag, [take] { take(true); }, help);
   } else {

@@ -14,6 +14,7 @@
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/design_notes.hpp"
 #include "tools/commands/fit_flags.hpp"
+#include "tools/commands/volume_flags.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/read_text.hpp"
 #include "tools/results/json_writer.hpp"
@@ -23,6 +24,7 @@ namespace bladefit {
 namespace {
 
 struct LocalizeFlags {
+  Volume volume;
   std::string design, points, subset, json, config, starts;
   FitSettings fit;
 };
@@ -92,27 +94,32 @@ int localize(const LocalizeFlags& flags) {
   }
   const FitSettings settings = merged(flags.fit, from_file);
   check_result_file(flags, settings);
+  const bool json_on_stdout = flags.json == "-";
+  std::FILE* words = json_on_stdout ? stderr : stdout;
+  StepClock clock(flags.volume, words);
   const LoadedDesign loaded = load_design(flags.design, design_choice_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
     throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));
   FitPlan plan = plan_fit(settings, design);
+  clock.done("design loaded");
   if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
   const std::vector<ProbePoint> points = read_points(flags, plan);
-
-  const bool json_on_stdout = flags.json == "-";
-  std::FILE* words = json_on_stdout ? stderr : stdout;
-  tell_notes(loaded, words);
-  if (!plan.note.empty()) fmt::print(words, "{}", plan.note);
+  clock.done("points read");
+  if (!flags.volume.quiet) {
+    tell_notes(loaded, words);
+    fmt::print(words, "{}", plan.note);
+  }
   const BatchFit batch = fit_points(design, plan, points, file_name(flags.points));
+  clock.done("points fitted and judged");
   const Result& result = batch.result;
-  if (!flags.starts.empty()) {
+  if (!flags.starts.empty() && !flags.volume.quiet) {
     fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", batch.wrong_starts, points.size(),
                batch.wrong_starts > 0 ? "; fitted again from searched ones" : "");
   }
   if (!flags.json.empty()) write_output(flags.json, result_json(result));
-  fmt::print(words, "{}", operator_summary(result));
-  if (!flags.json.empty() && !json_on_stdout) fmt::print(words, "Written: {}\n", flags.json);
+  fmt::print(words, "{}", told_of(operator_summary(result), flags.volume));
+  if (!flags.json.empty() && !json_on_stdout && !flags.volume.quiet) fmt::print(words, "Written: {}\n", flags.json);
   return exit_code_of(result);
 }
 
@@ -121,6 +128,11 @@ int localize(const LocalizeFlags& flags) {
 void add_localize_command(CLI::App& app, int& exit_code) {
   auto flags = std::make_shared<LocalizeFlags>();
   CLI::App* command = app.add_subcommand("localize", "fit measured points to a design and judge them");
+  command->footer(
+      "\nExamples:\n"
+      "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1mm\n"
+      "  bladefit localize --design blade.bfd --points - --mode min_tolerance --leading-edge auto:5mm --json - "
+      "< points.csv");
   command->add_option("--design", flags->design, "design: .igs .iges .stp .step, or .bfd from `bladefit compile`")
       ->required();
   command
@@ -140,6 +152,7 @@ void add_localize_command(CLI::App& app, int& exit_code) {
       "start and at the end. "
       "curves: from the cubic through its path; neighbour: from the point before on its path; global: by a search. "
       "Default: from the point before, then a search");
+  add_volume_flags(*command, flags->volume);
   add_fit_options(*command, flags->fit);
   command->callback([flags, &exit_code] { exit_code = localize(*flags); });
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/fit_text.hpp"
+#include "tools/commands/length_flag.hpp"
 #include "tools/design/loft/blade_table.hpp"
 #include "tools/design/loft/leading_edge.hpp"
 #include "tools/design/loft/loft.hpp"
@@ -30,8 +31,7 @@ constexpr double kZone = 0.05;
 
 struct LoftFlags {
   std::string sections, table, output, units, foil = std::string(kFoilWords[0]), hand = std::string(kRotationWords[0]);
-  double diameter = 0;
-  std::optional<double> tolerance;
+  std::optional<Length> diameter, tolerance;
   LoftSettings settings;
 };
 
@@ -95,7 +95,7 @@ void print_leading_edge(const BladeSections& sections) {
 /// Of a surface that is not where its points are.
 void warn_of_deviation(const LoftFlags& flags, const BladeSections& sections, const LoftDeviation& deviation,
                        double mm) {
-  const double most = flags.tolerance ? kShareOfTolerance * *flags.tolerance * mm : kLargestOff_mm;
+  const double most = flags.tolerance ? kShareOfTolerance * flags.tolerance->in_mm(mm) : kLargestOff_mm;
   if (deviation.largest_mm <= most) return;
   const BladeSection& worst = sections.sections[deviation.section];
   const std::string place = worst.lines.empty() ? "" : fmt::format(":{}", worst.lines[deviation.point]);
@@ -106,11 +106,16 @@ void warn_of_deviation(const LoftFlags& flags, const BladeSections& sections, co
       sections.file, place, deviation.largest_mm / mm, flags.units, worst.name, most / mm, flags.units);
 }
 
+const Length& above_zero(const char* flag, const Length& length) {
+  if (!(length.value > 0)) throw ToolError(fmt::format("{} {}: give a length above 0", flag, length.value));
+  return length;
+}
+
 /// The sections of a propeller's table.
 BladeSections tabulated(const LoftFlags& flags) {
-  if (!(flags.diameter > 0)) throw ToolError("--table: the diameter is not given; add --diameter, in --units");
+  if (!flags.diameter) throw ToolError("--table: the diameter is not given; add --diameter, in --units");
   const BladeTable table = parse_blade_table(read_text(flags.table), flags.table);
-  BladeShape shape{.diameter = flags.diameter};
+  BladeShape shape{.diameter = flags.diameter->in_units(flags.units == "in" ? kMmPerInch : 1.0)};
   shape.foil = flags.foil == kFoilWords[0] ? Foil::naca66 : Foil::naca16;
   shape.left_handed = flags.hand == kRotationWords[static_cast<std::size_t>(Rotation::left)];
   return sections_of(table, shape);
@@ -122,7 +127,7 @@ BladeSections read_sections(const LoftFlags& flags) {
                                         : "loft: SECTIONS.csv and --table are both given; leave one out");
   }
   if (!flags.table.empty()) return tabulated(flags);
-  if (flags.diameter != 0) throw ToolError("--diameter: is for --table alone; leave it out");
+  if (flags.diameter) throw ToolError("--diameter: is for --table alone; leave it out");
   return read_sections_csv(flags.sections);
 }
 
@@ -162,8 +167,9 @@ void add_loft_command(CLI::App& app, int& exit_code) {
   command->add_option("sections", flags->sections, "CSV with the points of the sections")->type_name("SECTIONS.csv");
   command->add_option("--table", flags->table, "CSV with a propeller's table, in place of sections")
       ->type_name("BLADE.csv");
-  command->add_option("--diameter", flags->diameter, "Diameter of the propeller of --table, in --units")
-      ->check(CLI::PositiveNumber);
+  add_length_flag(
+      *command, "--diameter", [flags](const Length& length) { flags->diameter = above_zero("--diameter", length); },
+      "Diameter of the propeller of --table, in --units");
   command->add_option("--section", flags->foil, "Sections of --table: naca66 (modified, a = 0.8) or naca16 (a = 1)")
       ->check(CLI::IsMember(std::vector<std::string>(kFoilWords.begin(), kFoilWords.end())))
       ->capture_default_str();
@@ -180,8 +186,9 @@ void add_loft_command(CLI::App& app, int& exit_code) {
       ->type_name("T1,T2,...");
   command->add_flag("--follow-points", settings.follow_points,
                     "Knots along a section that are dense where its points are, in place of uniform ones");
-  command->add_option("--tolerance", flags->tolerance, "Leading-edge tolerance that the blade will be judged by")
-      ->check(CLI::PositiveNumber);
+  add_length_flag(
+      *command, "--tolerance", [flags](const Length& length) { flags->tolerance = above_zero("--tolerance", length); },
+      "Leading-edge tolerance that the blade will be judged by");
   command->add_option("--degree", settings.degree, "Degree along the sections")->capture_default_str();
   command->add_option("--span-degree", settings.span_degree, "Degree over the sections")->capture_default_str();
   command->callback([flags, &exit_code] {

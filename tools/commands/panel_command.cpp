@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPause{50};
 
-int show_panel(const std::string& address) {
+int show_panel(const std::string& address, bool big) {
   std::string host;
   std::uint16_t port = 0;
   if (!parse_address(address, host, port)) {
@@ -27,11 +27,11 @@ int show_panel(const std::string& address) {
     return kBadInput;
   }
   const StopFlag stop;
-  PanelDisplay display(PanelClient(host, port));
+  PanelDisplay display(std::make_shared<PanelClient>(host, port), big ? ScreenPage::big : ScreenPage::operator_page);
   // The display recovers from later losses by itself: the host may be started again.
   display.turn();
   if (display.failure()) throw ToolError(display.failure());
-  while (!stop.requested() && !display.is_cut_off()) {
+  while (!stop.requested() && !display.is_cut_off() && !display.wants_to_leave()) {
     display.turn();
     std::this_thread::sleep_for(kPause);
   }
@@ -43,13 +43,20 @@ int show_panel(const std::string& address) {
 void add_panel_command(CLI::App& app, int& exit_code) {
   const auto address = std::make_shared<std::string>("127.0.0.1:1503");
   const auto map = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("panel", "show a running session live; Ctrl-C ends");
+  CLI::App* command = app.add_subcommand("panel", "show a running session live; q or Ctrl-C ends");
   command->add_option("--connect", *address, "HOST:PORT of the session's panel")->capture_default_str();
   command->add_option("--map", *map, "print the register map that the panel serves, as csv or markdown, and end")
       ->check(CLI::IsMember({"csv", "markdown"}));
-  command->callback([address, map, &exit_code] {
+  command->footer(
+      "\nExamples:\n"
+      "  bladefit panel --connect 192.168.0.20:1503\n"
+      "  bladefit panel --big\n"
+      "  bladefit panel --map markdown > registers.md");
+  const auto big = std::make_shared<bool>(false);
+  command->add_flag("--big", *big, "four lines in block letters, to be read from afar; the key b changes it");
+  command->callback([address, map, big, &exit_code] {
     if (map->empty()) {
-      exit_code = show_panel(*address);
+      exit_code = show_panel(*address, *big);
     } else {
       fmt::print("{}", *map == "csv" ? panel_map_csv() : panel_map_markdown());
       exit_code = 0;

@@ -163,9 +163,10 @@ int conclude(const RunPlan& plan, Host& host, const Words& words) {
       result_of(plan.image, plan.fit, points.rows, session.report, stream, plan.host.session_directory);
   host.conclude({result.verdict.state, result.verdict.codes()});
   const WrittenFiles files = write_files(plan, result);
-  std::string text =
-      fmt::format("Session ended: {}\n{}", ending(session, points.rows.size()), operator_summary(result));
-  for (const std::string& path : files.paths) text += path == "-" ? "" : fmt::format("Written: {}\n", path);
+  std::string text = told_of(operator_summary(result), plan.volume);
+  if (!plan.volume.quiet) text.insert(0, fmt::format("Session ended: {}\n", ending(session, points.rows.size())));
+  for (const std::string& path : files.paths)
+    text += path == "-" || plan.volume.quiet ? "" : fmt::format("Written: {}\n", path);
   const bool told = tell_summary(words, text, plan);
   for (const Failure& failure : files.failures) tell(failure.message);
   if (session.error) return exit_code_of(session.error);
@@ -185,8 +186,11 @@ std::vector<std::string> stray_parts(const RunPlan& plan) {
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
   const Words words(plan.json == "-" ? stderr : stdout);
-  tell_notes(plan.design, words.file);
-  if (!plan.fit.note.empty()) fmt::print(words.file, "{}", plan.fit.note);
+  StepClock clock(plan.volume, words.file);
+  if (!plan.volume.quiet) {
+    tell_notes(plan.design, words.file);
+    fmt::print(words.file, "{}", plan.fit.note);
+  }
 
   const StopFlag stop;
   Notices notices(plan.headless);
@@ -197,11 +201,14 @@ int run(const RunFlags& flags) {
     tell(fmt::format("{}: left by a run that was killed; removed", part));
   const std::string begun = fmt::format("Points from {}, session in {}, panel at {}\n", source_name(plan.source),
                                         plan.host.session_directory, panel_address(plan, host));
-  std::fputs(begun.c_str(), words.file);
+  if (!plan.volume.quiet) std::fputs(begun.c_str(), words.file);
+  clock.done("session begun");
   std::fflush(words.file);
   watch(host, plan, stop);
+  clock.done("points taken");
   notices.flush();
   const int exit_code = conclude(plan, host, words);
+  clock.done("result written");
   if (exit_code != kBadInput) linger(plan, stop, host.panel_port(), words.file);
   return exit_code;
 }
@@ -239,7 +246,13 @@ void add_session_options(CLI::App& command, RunFlags& flags) {
 void add_run_command(CLI::App& app, int& exit_code) {
   const auto flags = std::make_shared<RunFlags>();
   CLI::App* command = app.add_subcommand("run", "a live session: take points from a machine, fit and judge them");
+  command->footer(
+      "\nExamples:\n"
+      "  bladefit run --design blade.bfd --source modbus-tcp://192.168.0.10:502 --leading-edge u:0.4:0.6 "
+      "--tolerance 0.1mm --session monday --plan points.csv\n"
+      "  bladefit run --config session.toml --headless --json result.json");
   add_session_options(*command, *flags);
+  add_volume_flags(*command, flags->volume);
   add_fit_options(*command, flags->session.fit);
   command->callback([flags, &exit_code] { exit_code = run(*flags); });
 }

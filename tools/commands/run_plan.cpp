@@ -14,6 +14,7 @@
 #include "drivers/source_uri.hpp"
 #include "firmware_bridge/host/journal/session_file_names.hpp"
 #include "firmware_bridge/host/panel/panel_address.hpp"
+#include "tools/batch/tip_radius.hpp"
 #include "tools/files/output_file.hpp"
 
 namespace bladefit {
@@ -168,10 +169,14 @@ RunPlan plan_run(const RunFlags& flags) {
   check_standard_input(plan.source, session.plan.value_or(PointPlan{}).file);
   check_recording(plan.source, plan.fit);
   plan.json = flags.json;
+  plan.volume = flags.volume;
   // The screen would mix with the result.
   plan.headless = session.headless.value_or(false) || plan.json == "-";
   plan.host.localizer = plan.fit.localizer;
   plan.host.axis = plan.fit.axis;
+  plan.host.tip_radius_mm =
+      plan.fit.tip_radius_mm > 0 ? plan.fit.tip_radius_mm : tip_radius_of(Surface(plan.image), plan.fit.axis);
+  plan.host.source_name = source_name(plan.source);
   plan.host.session_directory = session.session.value_or(new_session_name());
   plan.host.panel = plan_panel(session.panel, flags.panel);
   plan.linger = std::chrono::milliseconds(std::llround(session.panel.linger.value_or(0) * kMillisecondsPerSecond));

@@ -7,6 +7,7 @@
 #include "drivers/source_settings.hpp"
 #include "firmware_bridge/host/host.hpp"
 #include "tools/batch/fit_options.hpp"
+#include "tools/commands/volume_flags.hpp"
 
 namespace bladefit {
 
@@ -15,6 +16,7 @@ struct RunFlags {
   std::string config;  ///< session TOML
   std::string json;    ///< where to write a copy of result.json; - = standard output
   std::string panel;   ///< HOST:PORT
+  Volume volume;
   SessionSettings session;
 };
 
@@ -28,6 +30,7 @@ struct RunPlan {
   bool headless = false;
   std::chrono::milliseconds linger{0};  ///< that the panel stays with the result
   std::string json;
+  Volume volume;
 };
 
 /// Reads the session file, lets the flags win, loads the design and checks everything that can be checked before the

@@ -12,6 +12,7 @@
 #include "core/geometry/surface/design_image.hpp"
 #include "drivers/text/csv_cells.hpp"
 #include "drivers/text/text_number.hpp"
+#include "tools/commands/length_flag.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/design/nurbs/surface_samples.hpp"
@@ -26,7 +27,7 @@ struct SampleFlags {
   std::string design, output, grid, pose, move, units;
   std::string window = "0:1", along = "u", outward = "auto";
   SamplePlan plan;
-  double offset = 0, noise = 0;  ///< [unit]
+  Length offset, noise;
 };
 
 constexpr std::uint64_t kMostPoints = 10'000'000;
@@ -110,10 +111,7 @@ void check_plan(const SampleFlags& flags, const SamplePlan& plan, const DesignIm
          fmt::format("{} points on {} paths, at most {} on {} are possible; make it coarser", points, lines,
                      kMostPoints, kMostPaths));
   }
-  if (!std::isfinite(flags.offset)) fail("--offset", fmt::format("{}", flags.offset), "give a finite length");
-  if (!(flags.noise >= 0) || !std::isfinite(flags.noise)) {
-    fail("--noise", fmt::format("{}", flags.noise), "give a length from 0 on");
-  }
+  if (!(flags.noise.value >= 0)) fail("--noise", fmt::format("{}", flags.noise.value), "give a length from 0 on");
 }
 
 SamplePlan plan_samples(const SampleFlags& flags, const DesignImage& design) {
@@ -125,8 +123,8 @@ SamplePlan plan_samples(const SampleFlags& flags, const DesignImage& design) {
   plan.low = window.low;
   plan.high = window.high;
   plan.lines_along_v = flags.along == "v";
-  plan.offset_mm = mm * flags.offset;
-  plan.noise_mm = mm * flags.noise;
+  plan.offset_mm = flags.offset.in_mm(mm);
+  plan.noise_mm = flags.noise.in_mm(mm);
   if (!flags.pose.empty() && !flags.move.empty()) throw ToolError("--pose and --move: give one of them, not both");
   if (!flags.pose.empty()) plan.pose = inverse(parse_pose("--pose", flags.pose, mm));
   if (!flags.move.empty()) plan.pose = parse_pose("--move", flags.move, mm);
@@ -149,7 +147,7 @@ void run_sample(const SampleFlags& flags) {
   refuse_overwriting(flags.output, "design", flags.design);
   // The side of the material plays a part only where something stands off the surface or looks at it.
   const OutwardChoice asked = outward_choice(flags.outward);
-  const bool either = asked == OutwardOption::automatic && flags.offset == 0 && !flags.plan.directions;
+  const bool either = asked == OutwardOption::automatic && flags.offset.value == 0 && !flags.plan.directions;
   const bool stored = lower_extension(flags.design) == ".bfd";
   const LoadedDesign loaded = load_design(flags.design, either && !stored ? OutwardChoice(OutwardOption::plus) : asked);
   DesignImage design;
@@ -167,8 +165,12 @@ void run_sample(const SampleFlags& flags) {
 
 void add_measuring_flags(CLI::App& command, SampleFlags& flags) {
   command.add_flag("--normals", flags.plan.directions, "Add the columns i,j,k");
-  command.add_option("--offset", flags.offset, "Distance of the points from the surface")->capture_default_str();
-  command.add_option("--noise", flags.noise, "Standard deviation along the normal")->capture_default_str();
+  add_length_flag(
+      command, "--offset", [&flags](const Length& length) { flags.offset = length; },
+      "Distance of the points from the surface (default 0)");
+  add_length_flag(
+      command, "--noise", [&flags](const Length& length) { flags.noise = length; },
+      "Standard deviation along the normal (default 0)");
   command.add_option("--seed", flags.plan.seed, "Seed of the noise")->capture_default_str();
   command.add_option("--pose", flags.pose, "The pose that localize is to find")->type_name("TX,TY,TZ,PSI,THETA,PHI");
   command.add_option("--move", flags.move, "A motion of the points")->type_name("TX,TY,TZ,PSI,THETA,PHI");

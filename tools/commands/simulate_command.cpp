@@ -114,6 +114,10 @@ int serve_points(SimulateFlags& flags) {
 
 void add_simulate_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("simulate", "a simulated CMM that serves the points of a file");
+  command->footer(
+      "\nExamples:\n"
+      "  bladefit simulate --points points.csv --transport modbus-tcp --port 1502 --rate 200\n"
+      "  bladefit simulate --points points.csv --transport serial --device /tmp/machine");
   const auto flags = std::make_shared<SimulateFlags>();
   add_source_flags(*command, *flags);
   add_transport_flags(*command, *flags);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <modbus.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kReplyTimeout_us = 500'000;
 constexpr int kUnit = 1;
+constexpr std::size_t kMostRegisters = 120;  ///< of a request
 
 }  // namespace
 
@@ -34,6 +36,16 @@ Failure PanelClient::connect() {
                   address(), modbus_strerror(reason)));
 }
 
+std::span<const std::uint16_t> PanelClient::read_block(std::uint16_t first, std::span<std::uint16_t> registers) const {
+  for (std::size_t done = 0; done < registers.size();) {
+    const int count = static_cast<int>(std::min(kMostRegisters, registers.size() - done));
+    const int address = first + static_cast<int>(done);
+    if (modbus_read_input_registers(context_.get(), address, count, registers.data() + done) != count) return {};
+    done += static_cast<std::size_t>(count);
+  }
+  return registers;
+}
+
 Failure PanelClient::read(PanelState& state) {
   if (!context_) {
     if (Failure error = connect()) return error;
@@ -46,11 +58,10 @@ Failure PanelClient::read(PanelState& state) {
                                       address(), modbus_strerror(reason)));
   }
   std::array<std::uint16_t, kExtensionRegisters> extension{};
-  const bool extended = modbus_read_input_registers(context_.get(), kExtensionBase, static_cast<int>(extension.size()),
-                                                    extension.data()) == static_cast<int>(extension.size());
-  const std::span<const std::uint16_t> known =
-      extended ? std::span<const std::uint16_t>(extension) : std::span<const std::uint16_t>();
-  if (decode_panel(registers, known, state)) return {};
+  std::array<std::uint16_t, kBladeRegisters> blade{};
+  const auto known = read_block(kExtensionBase, extension);
+  const auto told = known.empty() ? known : read_block(kBladeBase, blade);
+  if (decode_panel(registers, known, told, state)) return {};
   context_.reset();
   return device_failure(
       fmt::format("{}: panel map of version {}, this program reads version {}; use the bladefit of that host",

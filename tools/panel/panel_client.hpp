@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "drivers/source/failure.hpp"
@@ -26,6 +27,9 @@ class PanelClient {
     void operator()(_modbus* context) const;
   };
   [[nodiscard]] Failure connect();
+  /// Fills the registers; an empty span where the panel has not all of them.
+  [[nodiscard]] std::span<const std::uint16_t> read_block(std::uint16_t first,
+                                                          std::span<std::uint16_t> registers) const;
 
   std::string host_;
   std::uint16_t port_;

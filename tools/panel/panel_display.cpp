@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string_view>
 
 namespace bladefit {
 namespace {
@@ -35,17 +36,44 @@ bool colour_is_wanted() {
   return no_colour == nullptr || *no_colour == '\0';
 }
 
+/// A terminal that can place its cursor.
+bool shows_screens() {
+  const char* const kind = std::getenv("TERM");
+  return isatty(STDOUT_FILENO) == 1 && kind != nullptr && *kind != '\0' && std::string_view(kind) != "dumb";
+}
+
+/// The first of these that is set decides (POSIX, Internationalization Variables).
+bool shows_utf8() {
+  for (const char* const name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* const locale = std::getenv(name);
+    if (locale == nullptr || *locale == '\0') continue;
+    const std::string_view text(locale);
+    return text.find("UTF-8") != text.npos || text.find("utf8") != text.npos;
+  }
+  return false;
+}
+
+std::string key_words(bool may_leave) {
+  return std::string("e figures   b big letters   ") + (may_leave ? "q leaves" : "Ctrl-C ends the session");
+}
+
 }  // namespace
 
-PanelDisplay::PanelDisplay(PanelClient client)
-    : PanelDisplay(client.address(), [shared = std::make_shared<PanelClient>(std::move(client))](PanelState& state) {
-        return shared->read(state);
-      }) {}
+PanelDisplay::PanelDisplay(const std::shared_ptr<PanelClient>& client, ScreenPage page)
+    : PanelDisplay(
+          client->address(), [client](PanelState& state) { return client->read(state); }, page, true) {}
 
 PanelDisplay::PanelDisplay(std::string address, ReadPanel read)
-    : read_(std::move(read)), terminal_(isatty(STDOUT_FILENO) == 1) {
+    : PanelDisplay(std::move(address), std::move(read), ScreenPage::operator_page, false) {}
+
+PanelDisplay::PanelDisplay(std::string address, ReadPanel read, ScreenPage page, bool may_leave)
+    : read_(std::move(read)), terminal_(shows_screens()), may_leave_(may_leave) {
   view_.address = std::move(address);
   view_.colour = terminal_ && colour_is_wanted();
+  view_.utf8 = terminal_ && shows_utf8();
+  view_.page = page;
+  if (terminal_) keyboard_.emplace();
+  view_.keys = keyboard_ && keyboard_->works() ? key_words(may_leave) : "Ctrl-C ends";
 }
 
 PanelDisplay::~PanelDisplay() {
@@ -58,20 +86,43 @@ bool PanelDisplay::is_cut_off() const { return std::ferror(stdout) != 0; }
 
 void PanelDisplay::turn() {
   const Clock::time_point now = Clock::now();
-  if (now - last_turn_ < kTurn) return;
+  const bool pressed = follow_keys();
+  if (!pressed && now - last_turn_ < kTurn) return;
   last_turn_ = now;
-  failure_ = read_(view_.state);
-  view_.connected = !failure_;
-  if (view_.connected) {
-    view_.known = true;
-    measure_rate(now);
-  }
+  read_panel(now);
   if (!view_.known) return;
   if (terminal_) {
     show_screen();
   } else {
     show_line(now);
   }
+}
+
+void PanelDisplay::read_panel(Clock::time_point now) {
+  failure_ = read_(view_.state);
+  view_.connected = !failure_;
+  if (view_.connected) {
+    view_.known = true;
+    last_good_ = now;
+    measure_rate(now);
+  }
+  view_.age_s = std::chrono::duration<double>(now - last_good_).count();
+}
+
+/// True where one was pressed that changes what is shown.
+bool PanelDisplay::follow_keys() {
+  bool changed = false;
+  const auto toggle = [&](ScreenPage page) {
+    view_.page = view_.page == page ? ScreenPage::operator_page : page;
+    changed = true;
+  };
+  if (!keyboard_) return false;
+  for (char key = keyboard_->next(); key != '\0'; key = keyboard_->next()) {
+    if (key == 'e') toggle(ScreenPage::figures);
+    if (key == 'b') toggle(ScreenPage::big);
+    if (key == 'q') leave_ = may_leave_;
+  }
+  return changed;
 }
 
 void PanelDisplay::measure_rate(Clock::time_point now) {

@@ -11,6 +11,9 @@
 namespace bladefit {
 namespace {
 
+constexpr float kLongest_mm = 1e5F;
+constexpr float kLongestRatio = 10;
+
 std::string word_at(std::span<const std::string_view> words, std::size_t index) {
   return std::string(index < words.size() ? words[index] : "?");
 }
@@ -53,6 +56,17 @@ std::string region_word(Region region) {
   return word_at(kWords, static_cast<std::size_t>(region));
 }
 
+std::string cell_word(EdgeCell cell) {
+  static constexpr std::array<std::string_view, 7> kWords = {"not probed", "in",        "cut",         "weld",
+                                                             "pending",    "undecided", "off the edge"};
+  return word_at(kWords, static_cast<std::size_t>(cell));
+}
+
+std::string side_word(BladeSide side) {
+  static constexpr std::array<std::string_view, 4> kWords = {"", "suction", "pressure", "nose"};
+  return word_at(kWords, static_cast<std::size_t>(side));
+}
+
 std::string alarm_words(const PanelState& state) {
   static constexpr std::array<std::pair<PanelAlarm, std::string_view>, 6> kWords = {
       {{kAlarmInfeasible, "INFEASIBLE"},
@@ -71,8 +85,32 @@ std::string alarm_words(const PanelState& state) {
   return text;
 }
 
+// Numbers beyond what any machine measures are shown short: they are wrong, and would take the screen.
 std::string signed_mm(float value) {
-  return std::isfinite(value) ? fmt::format("{:+.3f} mm", static_cast<double>(value)) : "-";
+  if (!std::isfinite(value)) return "-";
+  const auto number = static_cast<double>(value);
+  return std::abs(value) < kLongest_mm ? fmt::format("{:+.3f} mm", number) : fmt::format("{:+.2g} mm", number);
+}
+
+std::string machine_mm(float value) {
+  if (!std::isfinite(value)) return "-";
+  const auto number = static_cast<double>(value);
+  return std::abs(value) < kLongest_mm ? fmt::format("{:+.1f}", number) : fmt::format("{:+.1g}", number);
+}
+
+std::string ratio_text(float value) {
+  const bool usual = value >= 0 && value < kLongestRatio;
+  return usual ? fmt::format("{:.3f}", static_cast<double>(value)) : "?";
+}
+
+std::string duration_text(double seconds) {
+  constexpr double kLongest_s = 1e8;
+  if (!(seconds >= 0) || seconds > kLongest_s) return "?";
+  constexpr long kMinute = 60, kHour = 3600;
+  const long whole = std::lround(seconds);
+  if (whole < kMinute) return fmt::format("{} s", whole);
+  if (whole < kHour) return fmt::format("{} min {:02} s", whole / kMinute, whole % kMinute);
+  return fmt::format("{} h {:02} min", whole / kHour, whole % kHour / kMinute);
 }
 
 std::string tolerance_mm(float value) {

@@ -12,11 +12,26 @@ namespace bladefit {
 [[nodiscard]] std::string action_word(Action action);
 [[nodiscard]] std::string region_word(Region region);
 
+/// "not probed", "in", "cut" ...
+[[nodiscard]] std::string cell_word(EdgeCell cell);
+
+/// "suction", "pressure", "nose"; empty where it is not known.
+[[nodiscard]] std::string side_word(BladeSide side);
+
 /// The alarms that are on, parted by commas; empty = none.
 [[nodiscard]] std::string alarm_words(const PanelState& state);
 
 /// "+0.310 mm"; "-" where there is none.
 [[nodiscard]] std::string signed_mm(float value);
+
+/// A machine coordinate: "+39.2"; "-" where there is none.
+[[nodiscard]] std::string machine_mm(float value);
+
+/// A part of R: "0.768".
+[[nodiscard]] std::string ratio_text(float value);
+
+/// "9 s", "4 min 05 s", "2 h 07 min".
+[[nodiscard]] std::string duration_text(double seconds);
 
 /// "0.100 mm", or "not judged" for infinity.
 [[nodiscard]] std::string tolerance_mm(float value);

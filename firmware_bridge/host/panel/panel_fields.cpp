@@ -1,97 +1,21 @@
 #include "firmware_bridge/host/panel/panel_fields.hpp"
 
 #include <array>
-#include <bit>
-#include <type_traits>
-#include <utility>
+
+#include "firmware_bridge/host/panel/field_makers.hpp"
 
 namespace bladefit {
 namespace {
 
-template <typename Value>
-std::uint32_t bits_of(Value value) {
-  if constexpr (std::is_same_v<Value, float>) {
-    return std::bit_cast<std::uint32_t>(value);
-  } else {
-    return static_cast<std::uint32_t>(value);
-  }
-}
-
-template <typename Value>
-void set_bits(std::uint32_t bits, Value& value) {
-  if constexpr (std::is_same_v<Value, float>) {
-    value = std::bit_cast<float>(bits);
-  } else {
-    value = static_cast<Value>(bits);
-  }
-}
-
-template <typename Value>
-constexpr PanelType type_of() {
-  if constexpr (std::is_same_v<Value, float>) return PanelType::real;
-  return std::is_same_v<Value, std::uint32_t> ? PanelType::wide : PanelType::word;
-}
-
-/// A member of the state.
-template <auto member>
-constexpr PanelField field(std::uint16_t address, PanelUnit unit, std::string_view name, std::string_view meaning) {
-  using Value = std::remove_cvref_t<decltype(std::declval<PanelState&>().*member)>;
-  return {address,
-          type_of<Value>(),
-          unit,
-          name,
-          meaning,
-          [](const PanelState& state, std::size_t) { return bits_of(state.*member); },
-          [](PanelState& state, std::size_t, std::uint32_t bits) { set_bits(bits, state.*member); }};
-}
-
-/// An element of an array of the state.
-template <auto member, std::size_t index>
-constexpr PanelField element(std::uint16_t address, PanelUnit unit, std::string_view name, std::string_view meaning) {
-  using Value = std::remove_cvref_t<decltype((std::declval<PanelState&>().*member)[0])>;
-  return {address,
-          type_of<Value>(),
-          unit,
-          name,
-          meaning,
-          [](const PanelState& state, std::size_t) { return bits_of((state.*member)[index]); },
-          [](PanelState& state, std::size_t, std::uint32_t bits) { set_bits(bits, (state.*member)[index]); }};
-}
-
-/// The same member of each of the newest places.
-template <auto member>
-constexpr PanelField places(std::uint16_t address, std::uint16_t stride, PanelUnit unit, std::string_view name,
-                            std::string_view meaning) {
-  using Value = std::remove_cvref_t<decltype(std::declval<PanelPlace&>().*member)>;
-  return {address,
-          type_of<Value>(),
-          unit,
-          name,
-          meaning,
-          [](const PanelState& state, std::size_t item) { return bits_of(state.newest[item].*member); },
-          [](PanelState& state, std::size_t item, std::uint32_t bits) { set_bits(bits, state.newest[item].*member); },
-          kPanelPlaces,
-          stride};
-}
-
-/// Always the same value.
-template <auto value>
-constexpr PanelField constant(std::uint16_t address, std::string_view name, std::string_view meaning) {
-  return {address,         type_of<std::remove_const_t<decltype(value)>>(),
-          PanelUnit::none, name,
-          meaning,         [](const PanelState&, std::size_t) { return bits_of(value); }};
-}
-
-constexpr PanelField text(std::size_t index, std::string_view name, std::string_view meaning) {
-  return {static_cast<std::uint16_t>(kTextBase + index * kTextRegisters), PanelType::text, PanelUnit::none, name,
-          meaning};
-}
-
+using namespace panel_rows;
 using enum PanelUnit;
 using State = PanelState;
 using Place = PanelPlace;
+using View = BladeView;
+using Defect = BladeDefect;
 
 constexpr std::string_view kActions = "0 none, 1 cut, 2 weld";
+constexpr std::string_view kSides = "0 not known, 1 suction, 2 pressure, 3 nose of the leading edge";
 constexpr std::string_view kInfinite = "panel.infinity where it is not judged: bit 9 of register 282 is set then";
 
 constexpr auto kFields = std::to_array<PanelField>({
@@ -156,9 +80,46 @@ constexpr auto kFields = std::to_array<PanelField>({
     constant<kPanelTestWord>(285, "test_word", "0x12345678 = 305419896; another value: the word order is wrong"),
     field<&State::planned>(287, none, "points_planned", "points that will come; 0 = not known"),
     field<&State::ended>(289, none, "host_state", "0 running, 1 ended: what is shown is the result"),
-    text(0, "verdict_text", "the verdict and its reasons"),
-    text(1, "worst_text", "the worst place"),
-    text(2, "advice_text", "what to do"),
+    text(kTextBase, 1, "verdict_text", "the verdict and its reasons"),
+    text(kTextBase + kTextRegisters, 1, "worst_text", "the worst place"),
+    text(kTextBase + 2 * kTextRegisters, 1, "advice_text", "what to do"),
+    blade_list<&View::edge, View::kCells>(1000, "edge",
+                                          "the leading edge in hundredths from root to tip: 0 not probed, 1 in, 2 cut, "
+                                          "3 weld, 4 pending, 5 undecided, 6 out beyond the edge of the design"),
+    blade<&View::edge_root>(1100, millimetre, "edge_root", "radius where the leading edge begins; 0 = none is set"),
+    blade<&View::edge_tip>(1102, millimetre, "edge_tip", "radius where it ends"),
+    blade<&View::tip>(1104, millimetre, "tip_radius", "R of r/R"),
+    blade<&View::defect_count>(1106, none, "defects", "joined defects in all, of which the worst 16 are listed"),
+    field<&State::lost>(1108, none, "points_lost", "records of the device that never came"),
+    field<&State::link_down_s>(1110, none, "link_down", "seconds since the link was lost; 0 = it is not"),
+    next<&NextPlace::reason>(1112, "next_reason",
+                             "why to probe there next: 0 nothing to say, 1 the points leave a direction of the fit "
+                             "open, 2 the leading edge has no point there, 3 the side of the blade has none there"),
+    next<&NextPlace::side>(1113, "next_side", kSides),
+    next<&NextPlace::ratio>(1114, "next_ratio", "r/R of that place"),
+    next_axis<0>(1116, "next_x", "machine coordinate of that place"),
+    next_axis<1>(1118, "next_y", "machine coordinate of that place"),
+    next_axis<2>(1120, "next_z", "machine coordinate of that place"),
+    blade_list<&View::suction, View::kBands>(1130, "suction",
+                                             "points off the leading edge on the suction side, by tenths of r/R; "
+                                             "65535 = no surface there"),
+    blade_list<&View::pressure, View::kBands>(1140, "pressure", "the same on the pressure side"),
+    defects<&Defect::sequence>(1200, none, "defect_point",
+                               "neighbouring points out of tolerance, worst first: number of the worst; 0 = none"),
+    defects<&Defect::from_ratio>(1202, none, "defect_from", "smallest r/R of its points"),
+    defects<&Defect::to_ratio>(1204, none, "defect_to", "largest r/R of its points"),
+    defects<&Defect::length>(1206, millimetre, "defect_length", "between its two farthest points"),
+    defects<&Defect::distance>(1208, millimetre, "defect_distance", "of the worst point; positive: cut"),
+    defects<&Defect::side>(1210, none, "defect_side", kSides),
+    defects<&Defect::action>(1211, none, "defect_action", kActions),
+    defects<&Defect::region>(1212, none, "defect_region", "0 rest, 1 leading edge"),
+    defects<&Defect::points>(1213, none, "defect_points", "how many points"),
+    defect_axis<0>(1214, "defect_x", "machine coordinate where the worst point was touched"),
+    defect_axis<1>(1216, "defect_y", "machine coordinate where the worst point was touched"),
+    defect_axis<2>(1218, "defect_z", "machine coordinate where the worst point was touched"),
+    text(1520, 1, "source_text", "where the points come from"),
+    text(1560, 2, "link_text", "why the link is lost"),
+    text(1640, 2, "loss_text", "which points were lost, and why"),
 });
 
 constexpr std::array<PanelBit, 7> kInputs = {

@@ -11,7 +11,7 @@ enum class PanelType : std::uint8_t {
   word,  ///< uint16
   wide,  ///< uint32
   real,  ///< float32
-  text   ///< ASCII, kTextRegisters
+  text   ///< ASCII, kTextRegisters; `items` of them are one long text
 };
 
 /// Units of the float32, which say what their twin counts in: micrometres, microradians, microseconds, millionths.
@@ -30,7 +30,7 @@ struct PanelField {
   std::uint16_t stride = 0;
 };
 
-/// The map: every field in rising order of address, of v1 and of the extension, without the twins.
+/// The map: every field in rising order of address, of v1, of the extension and of the blade, without the twins.
 [[nodiscard]] std::span<const PanelField> panel_fields();
 
 /// A bit that can be read or pressed.

@@ -24,13 +24,26 @@ void put_wide(Registers registers, std::size_t address, std::uint32_t value, con
 }
 
 /// ASCII, the first character of a register in its high byte; what is no ASCII becomes '?'.
-void put_text(Registers registers, std::size_t address, const std::string& text) {
-  const std::size_t length = std::min<std::size_t>(text.size(), 2U * kTextRegisters);
+void put_text(Registers registers, const PanelField& field, const std::string& text) {
+  const std::size_t address = field.address;
+  const std::size_t length = std::min<std::size_t>(text.size(), 2U * kTextRegisters * field.items);
   for (std::size_t index = 0; index < length; ++index) {
     const char character = text[index];
     const auto byte = static_cast<std::uint8_t>(character >= ' ' && character <= '~' ? character : '?');
     registers[address + index / 2] |= static_cast<std::uint16_t>(index % 2 == 0 ? byte << 8U : byte);
   }
+}
+
+/// A text that begins with `first`, up to the first zero.
+std::string text_at(std::span<const std::uint16_t> registers, std::size_t first, std::size_t parts) {
+  std::string text;
+  for (const std::uint16_t word : registers.subspan(first, kTextRegisters * parts)) {
+    for (const auto byte : {static_cast<unsigned>(word >> 8U), word & 0xFFU}) {
+      if (byte == 0) return text;
+      text += static_cast<char>(byte);
+    }
+  }
+  return text;
 }
 
 /// Units in the last place of a twin; lengths in mm and angles in rad have a million, or a thousand, in one.
@@ -91,6 +104,16 @@ void take_fields(std::span<const std::uint16_t> block, std::size_t base, bool lo
   }
 }
 
+/// Sets the texts that lie in `block`.
+void take_texts(std::span<const std::uint16_t> block, std::size_t base, PanelState& state) {
+  std::size_t text = 0;
+  for (const PanelField& field : panel_fields()) {
+    if (field.type != PanelType::text) continue;
+    if (field.address >= base) state.texts[text] = text_at(block, field.address - base, field.items);
+    ++text;
+  }
+}
+
 /// A tolerance that is none, as a sentinel shows it.
 void take_back_infinity(float& tolerance) {
   if (!(tolerance > 0) || static_cast<double>(tolerance) >= kLargestTolerance_mm)
@@ -126,7 +149,7 @@ PanelImage encode_panel(const PanelState& state, const PanelFormat& format) {
   std::size_t text = 0;
   for (const PanelField& field : panel_fields()) {
     if (field.type == PanelType::text) {
-      put_text(image.registers, field.address, state.texts[text++]);
+      put_text(image.registers, field, state.texts[text++]);
     } else {
       put_field(image.registers, field, state, format);
     }
@@ -142,14 +165,19 @@ PanelImage encode_panel(const PanelState& state, const PanelFormat& format) {
 }
 
 bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers, std::span<const std::uint16_t> extension,
-                  PanelState& state) {
+                  std::span<const std::uint16_t> blade, PanelState& state) {
   if (registers[0] != kPanelMapVersion) return false;
   constexpr std::size_t kTestWord = 285 - kExtensionBase;
   state.has_extension = extension.size() == kExtensionRegisters;
   const bool low_word_first = state.has_extension && extension[kTestWord] == (kPanelTestWord & kLowWord);
   take_fields(registers, 0, low_word_first, state);
+  state.has_blade = state.has_extension && blade.size() == kBladeRegisters;
   if (!state.has_extension) return true;
   take_fields(extension, kExtensionBase, low_word_first, state);
+  if (state.has_blade) {
+    take_fields(blade, kBladeBase, low_word_first, state);
+    take_texts(blade, kBladeBase, state);
+  }
   if ((state.reasons & kReasonNoTolerance) == 0) return true;
   take_back_infinity(state.leading_edge_tolerance);
   take_back_infinity(state.rest_tolerance);

@@ -5,12 +5,14 @@
 #include <string>
 
 #include "core/inspection/blade_verdict.hpp"
+#include "firmware_bridge/host/blade/blade_view.hpp"
 
 namespace bladefit {
 
 // Panel register map v1: input registers (function 4), the same as holding registers (function 3); float32 in mm and
 // rad. panel_fields.hpp says what stands where, and `bladefit panel --map` prints it. Registers 0..91 are v1; the
-// others are an extension, whose absence (exception 2) a client must bear. What no field has reads 0.
+// others, those of the blade from 1000 on too, are an extension, whose absence (exception 2) a client must bear. What
+// no field has reads 0.
 inline constexpr std::uint16_t kPanelMapVersion = 1;
 inline constexpr std::size_t kPanelRegisters = 92;  ///< of v1, from 0
 inline constexpr std::size_t kPanelPlaces = 8;
@@ -18,14 +20,19 @@ inline constexpr std::uint16_t kExtensionBase = 200;
 inline constexpr std::size_t kExtensionRegisters = 90;
 inline constexpr std::size_t kPanelSupport = 8;
 inline constexpr std::uint16_t kTextBase = 300;
-inline constexpr std::size_t kPanelTexts = 3;
+inline constexpr std::size_t kPanelTexts = 6;
 inline constexpr std::uint16_t kTextRegisters = 40;     ///< of each text, two characters a register
 inline constexpr std::uint16_t kTwinBase = 500;         ///< registers 0..91 again, every float32 as int32
-inline constexpr std::size_t kPanelMapRegisters = 600;  ///< that can be read
+inline constexpr std::size_t kPanelMapRegisters = 600;  ///< that can be read from 0 on
+inline constexpr std::uint16_t kBladeBase = 1000;       ///< what is told of places, and of the link in words
+inline constexpr std::size_t kBladeRegisters = 720;
 inline constexpr std::size_t kPanelDiscreteInputs = 16;
 inline constexpr std::size_t kPanelCoils = 4;
 inline constexpr float kPanelTestReal = 12345.678F;
 inline constexpr std::uint32_t kPanelTestWord = 0x12345678;
+
+/// PanelState::texts, in the order of their addresses.
+enum PanelText : std::uint8_t { kVerdictText, kWorstText, kAdviceText, kSourceText, kFaultText, kLossText };
 
 enum class SessionState : std::uint16_t {
   idle = 0,
@@ -101,8 +108,12 @@ struct PanelState {
   std::uint16_t reasons = 0;                   ///< PanelReason bits
   std::uint32_t planned = 0;                   ///< points that will come; 0 = not known
   bool ended = false;                          ///< the session is over, what is shown is its result
-  std::array<std::string, kPanelTexts> texts;  ///< verdict, worst place, what to do
-  bool fit_determined = false;                 ///< every degree of freedom that is not locked; not in a register
+  std::array<std::string, kPanelTexts> texts;  ///< see PanelText
+  std::uint32_t link_down_s = 0;               ///< how long the link has been lost; 0: it is not
+  std::uint32_t lost = 0;                      ///< records of the device that never came
+  BladeView blade;
+  bool has_blade = false;       ///< whether `blade`, `link_down_s`, `lost` and the last three texts are known
+  bool fit_determined = false;  ///< every degree of freedom that is not locked; not in a register
   bool has_extension =
       false;  ///< whether `verdict`, `improving`, `support` and patch, u, v, radius, action of `newest` are known
   std::array<PanelPlace, kPanelPlaces> newest{};
@@ -116,16 +127,23 @@ struct PanelFormat {
 
 /// What the server answers from.
 struct PanelImage {
-  std::array<std::uint16_t, kPanelMapRegisters> registers{};
+  std::array<std::uint16_t, kBladeBase + kBladeRegisters> registers{};
   std::array<bool, kPanelDiscreteInputs> discrete{};
+
+  /// Whether registers can be read in one request: of the map, or of the blade.
+  [[nodiscard]] static constexpr bool can_read(std::size_t first, std::size_t count) {
+    const std::size_t end = first + count;
+    return end <= kPanelMapRegisters || (first >= kBladeBase && end <= kBladeBase + kBladeRegisters);
+  }
 };
 
 [[nodiscard]] PanelImage encode_panel(const PanelState& state, const PanelFormat& format);
 
-/// Reads a state back from registers 0..91, and from kExtensionRegisters from kExtensionBase on, or an empty span where
-/// the server has no extension; the texts are not read. Whichever word comes first is seen from the test number.
-/// False when the map is of another version; then `state` is as before.
+/// Reads a state back from registers 0..91, from kExtensionRegisters from kExtensionBase on, and from kBladeRegisters
+/// from kBladeBase on; the latter are empty where the server has none. The first three texts are not read. Whichever
+/// word comes first is seen from the test number. False when the map is of another version; then `state` is as before.
 [[nodiscard]] bool decode_panel(std::span<const std::uint16_t, kPanelRegisters> registers,
-                                std::span<const std::uint16_t> extension, PanelState& state);
+                                std::span<const std::uint16_t> extension, std::span<const std::uint16_t> blade,
+                                PanelState& state);
 
 }  // namespace bladefit

@@ -33,7 +33,7 @@ Bytes read_registers(std::span<const std::uint8_t> request, const PanelImage& im
   const std::size_t first = word_at(request, 1);
   const std::size_t count = word_at(request, 3);
   if (count == 0 || count > kMostRegisters) return exception(request, kIllegalValue);
-  if (first + count > image.registers.size()) return exception(request, kIllegalAddress);
+  if (!PanelImage::can_read(first, count)) return exception(request, kIllegalAddress);
   Bytes answer = {request[0], static_cast<std::uint8_t>(2 * count)};
   for (const std::uint16_t word : std::span(image.registers).subspan(first, count)) {
     answer.push_back(static_cast<std::uint8_t>(word >> 8U));

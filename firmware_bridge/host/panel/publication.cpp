@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_bridge/host/blade/view_of_blade.hpp"
 #include "firmware_bridge/host/panel/panel_texts.hpp"
 
 namespace bladefit {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLongestWait{100};
 constexpr std::chrono::seconds kLongestLinger{1};
+constexpr std::chrono::milliseconds kBladeEvery{200};  ///< what is told of places costs more than a point
 
 float to_float(double value) { return static_cast<float>(value); }
 
@@ -31,8 +33,11 @@ double over_tolerance(const Verdict* verdict) {
 
 }  // namespace
 
-Publication::Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, PanelServer& server, HostShared& shared)
-    : tolerance_(tolerance), axis_(axis), server_(server), shared_(shared), tally_(tolerance_) {}
+Publication::Publication(const ToleranceMap& tolerance, const BladeLayout& layout, const std::string& source,
+                         PanelServer& server, HostShared& shared)
+    : tolerance_(tolerance), layout_(layout), server_(server), shared_(shared), tally_(tolerance_, layout_) {
+  state_.texts[kSourceText] = source;
+}
 
 void Publication::run() {
   const auto on_commands = [this](const PanelCommands& commands) { follow(commands); };
@@ -40,7 +45,7 @@ void Publication::run() {
     const bool over = shared_.fit_done.load();
     const bool last_turn = over && shared_.panel_closed.load();
     shared_.to_publication.wakeup.clear();
-    if (take_news() || last_turn || pressed_ || Clock::now() - updated_ >= kLongestWait) show();
+    if (take_news() || last_turn || pressed_ || Clock::now() - updated_.state >= kLongestWait) show();
     server_.serve(image_, on_commands);
     if (last_turn) return linger();
     server_.wait(shared_.to_publication.wakeup.descriptor(), kLongestWait);
@@ -59,12 +64,12 @@ void Publication::linger() {
 
 void Publication::show() {
   pressed_ = false;
-  updated_ = Clock::now();
+  updated_.state = Clock::now();
   const std::lock_guard lock(common_.mutex);
   update_state();
   state_.ended = common_.concluded.has_value();
   common_.shown = state_;
-  common_.shown.has_extension = true;
+  common_.shown.has_extension = common_.shown.has_blade = true;
   image_ = encode_panel(state_, server_.format());
 }
 
@@ -116,6 +121,8 @@ void Publication::update_state() {
   update_fit();
   update_last();
   update_places();
+  update_link();
+  update_blade();
   state_.session = session_state();
   state_.alarms = alarms();
   update_verdict();
@@ -138,7 +145,7 @@ void Publication::update_counts() {
   state_.worst_rest = to_float((rest != nullptr ? *rest : none).foot.distance);
   state_.worst_rest_sequence = (rest != nullptr ? *rest : none).sequence;
   const Verdict* const worst = over_tolerance(rest) > over_tolerance(edge) || edge == nullptr ? rest : edge;
-  state_.texts[1] = worst_words(worst, worst != nullptr ? axis_.radius_of(worst->foot.point) : 0);
+  state_.texts[kWorstText] = worst_words(worst, worst != nullptr ? layout_.axis().radius_of(worst->foot.point) : 0);
 }
 
 void Publication::update_fit() {
@@ -185,8 +192,8 @@ void Publication::update_verdict() {
   if (!both_judged) state_.reasons |= kReasonNoTolerance;
   state_.fit_determined = report.determined == report.free;
   state_.planned = link_.planned;
-  state_.texts[0] = verdict_words(state_);
-  state_.texts[2] = advice_words(state_);
+  state_.texts[kVerdictText] = verdict_words(state_);
+  state_.texts[kAdviceText] = advice_words(state_);
 }
 
 void Publication::update_last() {
@@ -201,8 +208,25 @@ void Publication::update_places() {
   state_.newest.fill({});
   const std::vector<Verdict> out = tally().newest_leading_edge_out();
   for (std::size_t place = 0; place < std::min(out.size(), kPanelPlaces); ++place) {
-    state_.newest[place] = place_of(out[place], axis_);
+    state_.newest[place] = place_of(out[place], layout_.axis());
   }
+}
+
+void Publication::update_link() {
+  const bool lost = link_.link == LinkState::lost;
+  const auto down = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - link_.since).count();
+  state_.link_down_s = lost ? static_cast<std::uint32_t>(down) : 0;
+  state_.lost = figures_.losses.records();
+  state_.texts[kFaultText] = lost ? link_.fault.data() : "";
+  state_.texts[kLossText] = link_.loss.data();
+}
+
+/// The result is told at once.
+void Publication::update_blade() {
+  const bool due = updated_.state - updated_.blade >= kBladeEvery;
+  if (!due && !common_.concluded) return;
+  updated_.blade = updated_.state;
+  state_.blade = view_of_blade(layout_, tally().blade(), figures_.report);
 }
 
 SessionState Publication::session_state() {

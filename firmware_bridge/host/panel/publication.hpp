@@ -4,8 +4,8 @@
 #include <mutex>
 #include <optional>
 
-#include "core/inspection/shaft_axis.hpp"
 #include "core/inspection/tolerance_map.hpp"
+#include "firmware_bridge/host/blade/blade_layout.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/panel/tally.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
@@ -16,7 +16,9 @@ namespace bladefit {
 /// waits for a disk or a client, so that a verdict is readable on the panel as soon as it is there.
 class Publication {
  public:
-  Publication(const ToleranceMap& tolerance, const ShaftAxis& axis, PanelServer& server, HostShared& shared);
+  /// `layout`, `server` and `shared` must outlive it. `source`: the name of what the points come from.
+  Publication(const ToleranceMap& tolerance, const BladeLayout& layout, const std::string& source, PanelServer& server,
+              HostShared& shared);
 
   /// Runs until HostShared::panel_closed is set and the fit is done; then, up to a second longer, until the clients
   /// that ask have seen the last state.
@@ -43,12 +45,14 @@ class Publication {
   void update_verdict();
   void update_last();
   void update_places();
+  void update_link();
+  void update_blade();
   [[nodiscard]] SessionState session_state();
   [[nodiscard]] std::uint16_t alarms() const;
   void follow(const PanelCommands& commands);
 
   ToleranceMap tolerance_;
-  ShaftAxis axis_;
+  const BladeLayout& layout_;
   PanelServer& server_;
   HostShared& shared_;
   Tally tally_;
@@ -61,7 +65,9 @@ class Publication {
     std::uint64_t times_out = 0, losses = 0;
   } acknowledged_;
   bool pressed_ = false;  ///< a command came since the last update
-  Clock::time_point updated_{};
+  struct Updated {
+    Clock::time_point state{}, blade{};
+  } updated_;
   PanelImage image_;
   /// What other threads read or write.
   struct Shared {

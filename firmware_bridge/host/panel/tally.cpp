@@ -24,7 +24,7 @@ bool is_farther(const Verdict& verdict, const std::optional<Verdict>& other) {
 void Tally::accept(const Verdict& verdict) {
   const auto [place, first] = verdicts_.try_emplace(verdict.sequence);
   const Verdict before = place->second;
-  if (!first) count(before, static_cast<std::uint32_t>(-1));
+  if (!first) count(before, -1);
   place->second = verdict;
   count(verdict, 1);
   if (is_out(verdict) && !is_out(before)) ++times_out_;
@@ -48,10 +48,11 @@ void Tally::give_up(std::uint32_t sequence) {
   if (given_up_out_.size() > kNewest) given_up_out_.pop_front();
 }
 
-// `sign` is +1 or -1 modulo 2^32.
-void Tally::count(const Verdict& verdict, std::uint32_t sign) {
+void Tally::count(const Verdict& verdict, int direction) {
+  const auto sign = static_cast<std::uint32_t>(direction);
   counts_.points += sign;
   zones_.count(verdict, sign);
+  blade_.count(verdict, direction);
   if (verdict.state == PointState::rejected) {
     counts_.rejected += sign;
     if (!has_foot(verdict)) counts_.refused += sign;
@@ -121,6 +122,7 @@ void Tally::clear() {
   worst_ = {};
   counts_ = {};
   zones_.clear();
+  blade_.clear();
 }
 
 const Verdict* Tally::find(std::uint32_t sequence) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/inspection/blade_verdict.hpp"
+#include "firmware_bridge/host/blade/blade_counts.hpp"
 
 namespace bladefit {
 
@@ -25,7 +26,8 @@ struct TallyCounts {
 /// the points that have a place in the fit: it belongs to the publication thread, which may allocate.
 class Tally {
  public:
-  explicit Tally(const ToleranceMap& tolerance) : zones_(tolerance) {}
+  /// Both must outlive it.
+  Tally(const ToleranceMap& tolerance, const BladeLayout& layout) : zones_(tolerance), blade_(layout) {}
 
   /// Takes a first verdict or a revision. Cost: logarithmic.
   void accept(const Verdict& verdict);
@@ -39,6 +41,9 @@ class Tally {
   [[nodiscard]] const TallyCounts& counts() const { return counts_; }
 
   [[nodiscard]] const ZoneCount& zones() const { return zones_; }
+
+  /// The same by places of the blade.
+  [[nodiscard]] const BladeCounts& blade() const { return blade_; }
 
   /// The point of a region that is farthest off, by the same verdicts as the counts; null where there is none. Pending
   /// points, whose distances are old while the pose moves, take part where asked for. Cost: constant, but linear where
@@ -59,7 +64,8 @@ class Tally {
   [[nodiscard]] std::uint64_t times_out() const { return times_out_; }
 
  private:
-  void count(const Verdict& verdict, std::uint32_t sign);
+  /// `direction`: +1 to add, -1 to take back.
+  void count(const Verdict& verdict, int direction);
   void follow_leading_edge(std::uint32_t sequence, bool was_out, bool is_out);
   void follow_worst(const Verdict& verdict);
 
@@ -79,6 +85,7 @@ class Tally {
   mutable std::array<std::array<Worst, 2>, 2> worst_{};
   TallyCounts counts_;
   ZoneCount zones_;
+  BladeCounts blade_;
   std::uint64_t times_out_ = 0;
 };
 

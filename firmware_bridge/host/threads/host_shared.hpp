@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -50,7 +52,11 @@ struct LinkFigures {
   std::uint64_t losses = 0;  ///< how often points were lost in the device
   bool paused = false;
   bool device_fault = false;
-  std::uint32_t planned = 0;  ///< points that the source will give; 0 = not known
+  std::uint32_t planned = 0;                      ///< points that the source will give; 0 = not known
+  std::chrono::steady_clock::time_point since{};  ///< when the link came to this state
+  /// The newest fault of the link, and the newest loss of points, in words as far as they fit, ended by 0.
+  static constexpr std::size_t kWords = 161;
+  std::array<char, kWords> fault{}, loss{};
 };
 
 /// All that the threads of a host share. Everything in it may be used by two threads at once in the way that its own

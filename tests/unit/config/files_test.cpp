@@ -35,7 +35,7 @@ TEST(ShippedFiles, AllLoad) {
   EXPECT_EQ(count, 4);
   FitSettings fit;
   EXPECT_EQ(load_fit(kShipped + "fit.toml", fit).message, "");
-  EXPECT_EQ(fit.tolerance, 0.1);
+  EXPECT_EQ(fit.tolerance, Length{0.1});
   SessionSettings session;
   EXPECT_EQ(load_session(kShipped + "session.toml", session).message, "");
   EXPECT_TRUE(std::filesystem::exists(*session.design)) << *session.design;
@@ -214,7 +214,7 @@ TEST(SessionFile, LeavesOpenWhatItDoesNotSay) {
   const std::string folder = std::filesystem::path(file.path).parent_path();
   EXPECT_EQ(settings.design, folder + "/d.igs");
   EXPECT_EQ(settings.source, "replay:" + folder + "/p.csv");
-  EXPECT_EQ(settings.fit.probe_radius, 1.5);
+  EXPECT_EQ(settings.fit.probe_radius, Length{1.5});
   EXPECT_FALSE(settings.fit.tolerance || settings.device || settings.capacity || settings.panel.port ||
                settings.headless);
 }

@@ -28,6 +28,10 @@ Failure set_number(std::string_view key, double value, FitSettings& settings) {
   return set(std::get<NumberOption>(option_of(key).kind), value, settings);
 }
 
+Failure set_length(std::string_view key, double value, FitSettings& settings) {
+  return set(std::get<LengthOption>(option_of(key).kind), Length{.value = value}, settings);
+}
+
 std::string contents(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
@@ -91,15 +95,45 @@ TEST(FitOptions, ShippedValuesAreTheDefaultsBesideTheTolerance) {
 TEST(FitOptions, RangesHoldForFilesAndFlagsAlike) {
   FitSettings settings;
   for (const double bad : {0.0, -1.0, 1.1e9, std::nan("")}) {
-    EXPECT_TRUE(set_number("tolerance", bad, settings)) << bad;
+    EXPECT_TRUE(set_length("tolerance", bad, settings)) << bad;
     EXPECT_TRUE(load("[fit]\ntolerance = " + std::to_string(bad) + "\n", settings)) << bad;
   }
   EXPECT_FALSE(settings.tolerance);
-  EXPECT_FALSE(set_number("tolerance", 1e-15, settings));
+  EXPECT_FALSE(set_length("tolerance", 1e-15, settings));
   EXPECT_FALSE(load("[fit]\ntolerance = 1e-15\n", settings));
   EXPECT_EQ(set_number("ratio", 0.5, settings).message, "0.5 is out of range; give a number from 1 to 1000000000");
-  EXPECT_EQ(set_number("probe_radius", -1, settings).message, "-1 is out of range; give 0 or more, up to 1000000000");
-  EXPECT_FALSE(set_number("probe_radius", 0, settings));
+  EXPECT_EQ(set_length("probe_radius", -1, settings).message, "-1 is out of range; give 0 or more, up to 1000000000");
+  EXPECT_FALSE(set_length("probe_radius", 0, settings));
+}
+
+TEST(FitOptions, ALengthHasAUnitOfItsOwnOrThatOfTheOthers) {
+  Length length;
+  for (const auto& [text, value, unit] : {std::tuple{"0.1", 0.1, std::optional<Unit>()},
+                                          {"0.1mm", 0.1, Unit::mm},
+                                          {" 4e-3 in", 0.004, Unit::inch},
+                                          {"0.5cm", 0.5, Unit::cm},
+                                          {"-1m", -1.0, Unit::metre}}) {
+    ASSERT_FALSE(parse_length(text, length)) << text;
+    EXPECT_EQ(length, (Length{value, unit})) << text;
+  }
+  for (const char* wrong : {"", "mm", "0.1 furlong", "0.1mmm", "nan", "1e400mm", "1,5mm", "0.1 0.2"})
+    EXPECT_TRUE(parse_length(wrong, length)) << wrong;
+  EXPECT_DOUBLE_EQ((Length{0.1, Unit::inch}).in_mm(1), 2.54);
+  EXPECT_DOUBLE_EQ((Length{2.54, Unit::mm}).in_units(kMmPerInch), 0.1);
+  EXPECT_DOUBLE_EQ(Length{2.54}.in_units(kMmPerInch), 2.54);
+}
+
+TEST(FitOptions, LengthsWithUnitsMeanTheSameInAnyUnits) {
+  FitSettings settings;
+  ASSERT_EQ(load("[fit]\ntolerance = \"0.1mm\"\nprobe_radius = \"0.5 cm\"\nrest_tolerance = 0.5\n", settings).message,
+            "");
+  LocalizerConfig config;
+  apply_fit_options(settings, kMmPerInch, config);
+  EXPECT_DOUBLE_EQ(config.tolerance.leading_edge_mm, 0.1);
+  EXPECT_DOUBLE_EQ(config.probe_radius_mm, 5);
+  EXPECT_DOUBLE_EQ(config.tolerance.rest_mm, 12.7) << "in the units of the others";
+  EXPECT_NE(load("[fit]\ntolerance = \"0.1 miles\"\n", settings).message.find("'0.1 miles' is not a number"),
+            std::string::npos);
 }
 
 TEST(FitOptions, EveryWordIsTheEnumeratorOfItsPlace) {
@@ -134,9 +168,9 @@ TEST(FitOptions, OutwardIsASideOrASideForEachFace) {
 TEST(FitOptions, FlagsWinOverTheFile) {
   FitSettings file, flags;
   ASSERT_FALSE(load("[fit]\ntolerance = 1\nmode = \"range\"\nignore_approach = true\n", file));
-  ASSERT_FALSE(set_number("tolerance", 2, flags));
+  ASSERT_FALSE(set_length("tolerance", 2, flags));
   const FitSettings both = merged(flags, file);
-  EXPECT_EQ(both.tolerance, 2);
+  EXPECT_EQ(both.tolerance, Length{2});
   EXPECT_EQ(both.mode, FitMode::range);
   EXPECT_EQ(both.ignore_approach, true);
   EXPECT_FALSE(both.ratio);

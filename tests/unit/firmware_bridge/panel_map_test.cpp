@@ -103,7 +103,7 @@ TEST(BridgePanelMap, NamesThePointsThatProveTheSmallestTolerance) {
   EXPECT_EQ(image.registers[267], 1);
   EXPECT_EQ(image.registers[268], 70000 - 65536);
   PanelState read;
-  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), {}, read));
   EXPECT_TRUE(read.improving);
   EXPECT_EQ(read.support, state.support);
 }
@@ -133,7 +133,7 @@ TEST(BridgePanelMap, SaysWhetherTheSessionHasEndedAndWhatWasPlanned) {
   EXPECT_EQ(wide(image, 287), 70287U);
   EXPECT_EQ(image.registers[289], 1);
   PanelState read;
-  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), {}, read));
   EXPECT_EQ(read.planned, 70287U);
   EXPECT_TRUE(read.ended);
 }
@@ -183,7 +183,7 @@ TEST(BridgePanelMap, TheLowWordComesFirstWhereTheFormatSaysSo) {
   EXPECT_EQ(image.registers[504], 70001 - 65536);
   EXPECT_EQ(image.registers[3], kAlarmLeadingEdgeOut | kAlarmLinkLost) << "a single register stays";
   PanelState read;
-  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), {}, read));
   EXPECT_EQ(read.points, 70001U);
   EXPECT_EQ(read.worst_leading_edge, -0.018F);
 }
@@ -201,7 +201,7 @@ TEST(BridgePanelMap, InfinityIsSentAsTheFormatSays) {
     EXPECT_EQ(real(image, 40), infinity);
     EXPECT_EQ(image.registers[282], 512);
     PanelState read;
-    ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
+    ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), {}, read));
     EXPECT_EQ(read.leading_edge_tolerance, 0.1F);
     EXPECT_EQ(read.rest_tolerance, std::numeric_limits<float>::infinity());
   }
@@ -247,7 +247,7 @@ TEST(BridgePanelMap, VerdictReasonsAndTestNumbersStandInTheExtension) {
   EXPECT_EQ(image.registers[285], 0x1234);
   EXPECT_EQ(image.registers[286], 0x5678);
   PanelState read;
-  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), read));
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), {}, read));
   EXPECT_EQ(read.verdict, state.verdict);
   EXPECT_EQ(read.reasons, state.reasons);
 }
@@ -255,14 +255,15 @@ TEST(BridgePanelMap, VerdictReasonsAndTestNumbersStandInTheExtension) {
 TEST(BridgePanelMap, ReadsBackWhatItWrites) {
   const PanelImage image = encode_panel(known_state(), {});
   PanelState state;
-  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), state));
+  const auto blade = std::span(image.registers).subspan(kBladeBase, kBladeRegisters);
+  ASSERT_TRUE(decode_panel(first_registers(image), extension_of(image), blade, state));
   EXPECT_EQ(encode_panel(state, {}).registers, image.registers);
   EXPECT_TRUE(state.has_extension);
-  ASSERT_TRUE(decode_panel(first_registers(image), {}, state));
+  ASSERT_TRUE(decode_panel(first_registers(image), {}, {}, state));
   EXPECT_FALSE(state.has_extension);
   PanelImage foreign = image;
   foreign.registers[0] = 2;
-  EXPECT_FALSE(decode_panel(first_registers(foreign), extension_of(image), state));
+  EXPECT_FALSE(decode_panel(first_registers(foreign), extension_of(image), {}, state));
 }
 
 }  // namespace

@@ -71,13 +71,17 @@ Context connected(std::uint16_t port, int unit = 1) {
 }
 
 bool reads_the_map(modbus_t* context) {
-  std::array<std::uint16_t, kPanelMapRegisters> registers{}, holdings{};
   const PanelImage expected = encode_panel(known_state(), {});
-  for (int first = 0; first < static_cast<int>(kPanelMapRegisters); first += 120) {
-    if (modbus_read_input_registers(context, first, 120, registers.data() + first) != 120) return false;
-    if (modbus_read_registers(context, first, 120, holdings.data() + first) != 120) return false;
+  constexpr int kBlade = kBladeBase, kRegisters = 120;
+  for (int first = 0; first < kBlade + static_cast<int>(kBladeRegisters); first += kRegisters) {
+    if (first == static_cast<int>(kPanelMapRegisters)) first = kBlade;
+    std::array<std::uint16_t, kRegisters> registers{}, holdings{};
+    if (modbus_read_input_registers(context, first, kRegisters, registers.data()) != kRegisters) return false;
+    if (modbus_read_registers(context, first, kRegisters, holdings.data()) != kRegisters) return false;
+    const auto wanted = std::span(expected.registers).subspan(static_cast<std::size_t>(first), kRegisters);
+    if (!std::ranges::equal(registers, wanted) || registers != holdings) return false;
   }
-  return registers == expected.registers && holdings == expected.registers;
+  return true;
 }
 
 int raw_connection(std::uint16_t port) {

@@ -70,7 +70,8 @@ double farthest(const Tally& tally, Region region) {
 TEST(BridgeTally, CountsAgreeWithCountingAnewForAnyRevisions) {
   std::mt19937 random(20240511);
   const ToleranceMap judged_everywhere = all_judged();
-  Tally tally(judged_everywhere);
+  const BladeLayout nowhere;
+  Tally tally(judged_everywhere, nowhere);
   for (int step = 0; step < 3000; ++step) {
     tally.accept(verdict(1 + static_cast<std::uint32_t>(random() % 200), static_cast<PointState>(random() % 5),
                          static_cast<Region>(random() % 2)));
@@ -90,7 +91,8 @@ TEST(BridgeTally, CountsAgreeWithCountingAnewForAnyRevisions) {
 
 TEST(BridgeTally, TheWorstPointIsAJudgedOneUnlessPendingOnesAreAskedFor) {
   const ToleranceMap judged_everywhere = all_judged();
-  Tally tally(judged_everywhere);
+  const BladeLayout nowhere;
+  Tally tally(judged_everywhere, nowhere);
   EXPECT_EQ(tally.worst(Region::leading_edge, true), nullptr);
   Verdict near = verdict(1, PointState::in), far = verdict(2, PointState::out),
           farther = verdict(3, PointState::pending);
@@ -106,7 +108,8 @@ TEST(BridgeTally, TheWorstPointIsAJudgedOneUnlessPendingOnesAreAskedFor) {
 TEST(BridgeTally, TheWorstPointIsFoundAgainWhenItComesNearer) {
   std::mt19937 random(77);
   const ToleranceMap judged_everywhere = all_judged();
-  Tally tally(judged_everywhere);
+  const BladeLayout nowhere;
+  Tally tally(judged_everywhere, nowhere);
   for (int step = 0; step < 2000; ++step) {
     Verdict made = verdict(1 + static_cast<std::uint32_t>(random() % 50), static_cast<PointState>(random() % 5),
                            static_cast<Region>(random() % 2));
@@ -121,7 +124,8 @@ TEST(BridgeTally, TheWorstPointIsFoundAgainWhenItComesNearer) {
 
 TEST(BridgeTally, APointThatIsGivenUpStaysInEveryFigure) {
   const ToleranceMap judged_everywhere = all_judged();
-  Tally tally(judged_everywhere);
+  const BladeLayout nowhere;
+  Tally tally(judged_everywhere, nowhere);
   Verdict far = verdict(1, PointState::out), near = verdict(2, PointState::out);
   far.foot.distance = -3.0;
   near.foot.distance = 1.0;
@@ -139,7 +143,8 @@ TEST(BridgeTally, APointThatIsGivenUpStaysInEveryFigure) {
 
 TEST(BridgeTally, ListsTheLeadingEdgePointThatBecameOutLastFirst) {
   const ToleranceMap judged_everywhere = all_judged();
-  Tally tally(judged_everywhere);
+  const BladeLayout nowhere;
+  Tally tally(judged_everywhere, nowhere);
   for (const std::uint32_t sequence : {1U, 2U, 3U, 4U}) tally.accept(verdict(sequence, PointState::in));
   tally.accept(verdict(4, PointState::out));
   tally.accept(verdict(2, PointState::out));

@@ -48,7 +48,8 @@ TEST(FitFlags, ValuesArriveParsed) {
   EXPECT_EQ(flags.mode, FitMode::minimax);
   ASSERT_EQ(flags.leading_edge->size(), 2U);
   EXPECT_EQ(flags.leading_edge->at(1).box.patch, 1U);
-  EXPECT_EQ(flags.tolerance, 2);
+  EXPECT_EQ(flags.tolerance, Length{2});
+  EXPECT_EQ(parsed("--tolerance 0.004in").tolerance, (Length{0.004, Unit::inch}));
   EXPECT_EQ(flags.units, Unit::inch);
   EXPECT_EQ(design_choice_of(flags).outward, OutwardChoice(OutwardOption::minus));
   EXPECT_EQ(flags.lock, 33);
@@ -66,6 +67,7 @@ TEST(FitFlags, WhatCannotBeUsedIsNamedWithTheFlag) {
   EXPECT_EQ(refusal("--leading-edge w:0:1").find("--leading-edge: 'w:0:1' is no leading-edge box"), 0U);
   EXPECT_EQ(refusal("--window 0.9:0.1").find("--window: '0.9:0.1' is no window"), 0U);
   EXPECT_EQ(refusal("--tolerance 1"), "");
+  EXPECT_EQ(refusal("--tolerance 1furlong").find("--tolerance: '1furlong' is not a number, nor one with its unit"), 0U);
 }
 
 }  // namespace

@@ -193,7 +193,7 @@ TEST(WorldChecks, PointsBesideATrimmedFaceMirrorNothingWhereTheFrameIsKnown) {
   EXPECT_LT(2 * static_cast<std::size_t>(beside), result.points.size());
   EXPECT_TRUE(result.verdict.fit_decided()) << result.verdict.reasons.front().text;
   for (const ResultPoint& point : result.points) {
-    if (point.kind == FootKind::interior) EXPECT_EQ(point.state, PointState::in);
+    EXPECT_TRUE(point.kind != FootKind::interior || point.state == PointState::in);
   }
 }
 
