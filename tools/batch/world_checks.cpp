@@ -89,7 +89,10 @@ StartChoice WorldChecks::choose_start() {
   }
   if (plan_.localizer.locked == 0) return searched_start();
   choice.hopeless = true;
-  choice.findings.doubts.push_back({Reason::far_start, kHeldText});
+  PoseFit nowhere;  // which is not plausible, so that something is said
+  nowhere.points = static_cast<std::uint32_t>(points_.size());
+  nowhere.rms_mm = nowhere.typical_mm = std::numeric_limits<double>::infinity();
+  choice.findings.doubts.push_back(*explain_misfit_in_frame(nowhere));
   return choice;
 }
 

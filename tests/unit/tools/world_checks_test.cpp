@@ -200,6 +200,7 @@ TEST(WorldChecks, PointsBesideATrimmedFaceMirrorNothingWhereTheFrameIsKnown) {
 TEST(WorldChecks, MirroredPointsAreNamedWhereTheFrameIsKnown) {
   FitPlan plan = judging_plan();
   plan.localizer.locked = kAllButTx;
+  plan.localizer.start = Pose();
   const Pose pose = fitted(blade_points()).pose;
   for (int axis = 1; axis < 3; ++axis) {
     Mat3 mirror = Mat3::Identity();
