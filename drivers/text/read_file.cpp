@@ -54,9 +54,10 @@ Failure check_kind(int descriptor, std::size_t largest, bool& waits) {
   if (S_ISDIR(about.st_mode)) return bad_input("is a folder; name a file in it");
   if (S_ISREG(about.st_mode) && static_cast<std::size_t>(about.st_size) > largest) return too_large(largest);
   const bool terminal = ::isatty(descriptor) == 1;
-  if (S_ISBLK(about.st_mode) || (S_ISCHR(about.st_mode) && !terminal))
+  if (S_ISBLK(about.st_mode) || (S_ISCHR(about.st_mode) && !terminal)) {
     return bad_input(descriptor == STDIN_FILENO ? "is a device, no file; redirect a file or a pipe to it"
                                                 : "is a device, no file; name a file, or - for standard input");
+  }
   waits = terminal || S_ISFIFO(about.st_mode) || S_ISSOCK(about.st_mode);
   return {};
 }
