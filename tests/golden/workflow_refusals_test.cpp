@@ -87,7 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"sample", kFan, "-o", "OUT.csv", "--grid", "4x4", "--pose", "1,2,3,4,5,6", "--move", "1,2,3,4,5,6"},
                 "not both"},
         Refusal{{"sample", kFan, "-o", "OUT.csv", "--grid", "4x4", "--noise", "-1"}, "--noise -1"},
-        Refusal{{"sample", kFan, "-o", "OUT.csv", "--grid", "4x4", "--offset", "nan"}, "--offset: 'nan' is not a number"},
+        Refusal{{"sample", kFan, "-o", "OUT.csv", "--grid", "4x4", "--offset", "nan"},
+                "--offset: 'nan' is not a number"},
         Refusal{{"sample", kFan, "-o", kFan, "--grid", "4x4"}, "would overwrite the design"},
         Refusal{{"sample", kFan, "-o", "OUT/a.csv", "--grid", "4x4"}, "cannot be written", 3}));
 
