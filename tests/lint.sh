@@ -30,14 +30,19 @@ clashing() {
 tidy() { clang-tidy --quiet --config-file=.clang-tidy "$(unit_of "$@")" -- "${flags[@]}" -fdelayed-template-parsing 2>/dev/null; }
 
 lint() {
-  local apart together bad=0
+  local apart together report bad=0
+  report=$(tidy "$@") && { [[ -z $report ]] || echo "$report"; return; }
+  if [[ $report != *clang-diagnostic-error* ]]; then
+    echo "$report"
+    return 1
+  fi
   mapfile -t apart < <(clashing "$@")
   if [[ ${#apart[@]} -eq 0 || ${#apart[@]} -eq $# ]]; then
-    tidy "$@"
-    return
+    echo "$report"
+    return 1
   fi
   mapfile -t together < <(printf '%s\n' "$@" | grep -vxF "$(printf '%s\n' "${apart[@]}")")
-  tidy "${together[@]}" || bad=1
+  lint "${together[@]}" || bad=1
   lint "${apart[@]}" || bad=1
   return $bad
 }

@@ -29,8 +29,6 @@ Pose FitProblem::moved_and_held(const Pose& pose, const Vec6& x) const {
   return held(moved(pose, x, frame), config.start, config.locked);
 }
 
-Region FitProblem::region_of(const Foot& foot) const { return region_at(config.tolerance, foot.patch, foot.u, foot.v); }
-
 double FitProblem::tolerance_of(const Foot& foot, Region region) const {
   return tolerance_at(config.tolerance, region, foot.patch, foot.u, foot.v);
 }

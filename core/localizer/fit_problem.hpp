@@ -14,7 +14,9 @@ struct FitProblem {
   [[nodiscard]] double reach() const;
   /// `pose` moved by x, with the locked degrees of freedom of the start pose.
   [[nodiscard]] Pose moved_and_held(const Pose& pose, const Vec6& x) const;
-  [[nodiscard]] Region region_of(const Foot& foot) const;
+  [[nodiscard]] Region region_of(const Foot& foot) const {
+    return region_at(config.tolerance, foot.patch, foot.u, foot.v);
+  }
   /// Of a foot in `region` [mm].
   [[nodiscard]] double tolerance_of(const Foot& foot, Region region) const;
   /// Whether a point can be taken in: ok, not_finite or out_of_range. Its sequence is only checked for 0.

@@ -26,15 +26,6 @@ void PointSelection::hold(PointStore& store) {
   rule_ = Rule::held;
 }
 
-bool PointSelection::left_out(const StoredPoint& point, const Foot& foot) const {
-  if (rule_ == Rule::held) return point.held_out;
-  return (rule_ == Rule::by_exits && point.exits >= tuning::kMostExits) || out_by_foot(point, foot);
-}
-
-bool PointSelection::out_by_foot(const StoredPoint& point, const Foot& foot) const {
-  return point.outside_window || (foot.kind != FootKind::interior && problem_.config.edges == EdgePolicy::skip);
-}
-
 PointSelection::Span PointSelection::distances(const PointStore& store, std::uint32_t stride) const {
   Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (std::uint32_t i = 0; i < store.size(); i += stride) {
@@ -43,10 +34,6 @@ PointSelection::Span PointSelection::distances(const PointStore& store, std::uin
     span.most = std::max(span.most, store[i].foot.distance);
   }
   return span;
-}
-
-Region PointSelection::region(const StoredPoint& point, const Foot& foot) const {
-  return rule_ == Rule::held ? point.region : problem_.region_of(foot);
 }
 
 void PointSelection::note_exit(StoredPoint& point, const Foot& next) const {

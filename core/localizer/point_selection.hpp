@@ -1,6 +1,7 @@
 #pragma once
 #include "core/localizer/fit_problem.hpp"
 #include "core/localizer/point_store.hpp"
+#include "core/localizer/tuning.hpp"
 
 namespace bladefit {
 
@@ -26,7 +27,10 @@ class PointSelection {
   [[nodiscard]] bool held() const { return rule_ == Rule::held; }
 
   /// Whether the point, with this foot, does not count.
-  [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const;
+  [[nodiscard]] bool left_out(const StoredPoint& point, const Foot& foot) const {
+    if (rule_ == Rule::held) return point.held_out;
+    return (rule_ == Rule::by_exits && point.exits >= tuning::kMostExits) || out_by_foot(point, foot);
+  }
   /// Smallest and largest of the signed distances [mm].
   struct Span {
     double least = 0, most = 0;
@@ -34,12 +38,16 @@ class PointSelection {
   /// Of every `stride`-th point, those that count, with their present feet; least > most where none does.
   [[nodiscard]] Span distances(const PointStore& store, std::uint32_t stride) const;
   /// Region of the point with this foot.
-  [[nodiscard]] Region region(const StoredPoint& point, const Foot& foot) const;
+  [[nodiscard]] Region region(const StoredPoint& point, const Foot& foot) const {
+    return rule_ == Rule::held ? point.region : problem_.region_of(foot);
+  }
   /// Counts an exit where the point leaves with its next foot. Called before that is recorded.
   void note_exit(StoredPoint& point, const Foot& next) const;
 
  private:
-  [[nodiscard]] bool out_by_foot(const StoredPoint& point, const Foot& foot) const;
+  [[nodiscard]] bool out_by_foot(const StoredPoint& point, const Foot& foot) const {
+    return point.outside_window || (foot.kind != FootKind::interior && problem_.config.edges == EdgePolicy::skip);
+  }
 
   const FitProblem& problem_;
   Rule rule_ = Rule::by_foot;

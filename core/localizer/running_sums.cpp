@@ -85,6 +85,7 @@ void RunningSums::settle(PointStore& store, const PoseEstimate& estimate) {
 }
 
 void RunningSums::settle_all(PointStore& store, const PoseEstimate& estimate) {
+  if (recent_count_ == 0) return;  // those in use are the committed ones already
   while (active_count_ > 0) settle_one(store, active_count_ - 1, estimate);
   for (std::uint32_t k = 0; k < recent_count_; ++k) store[recent_[k]].recent = false;
   recent_count_ = 0;
