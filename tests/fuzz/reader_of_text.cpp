@@ -12,9 +12,9 @@
 #include "drivers/serial/line_framer.hpp"
 #include "drivers/serial/serial_message.hpp"
 #include "drivers/source/crc16.hpp"
-#include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/reader.hpp"
 #include "tools/batch/start_pairs.hpp"
+#include "tools/design/occ/memory_file.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit::fuzz {

@@ -48,9 +48,6 @@ void write_points(const std::string& path, std::size_t count) {
 class SessionMemory : public CommandTest {};
 
 TEST_F(SessionMemory, GrowsByLittleMoreThanTheRecordingThatIsReplayed) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer keeps memory of its own";
-#endif
   const std::string config = scratch("session.toml");
   std::ofstream(config) << "capacity = 256\n";
   const auto peak_kb = [&](std::size_t count) {
