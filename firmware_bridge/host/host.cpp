@@ -188,8 +188,8 @@ void Host::request_stop() { shared_.requests.stop.store(true); }
 
 PanelState Host::panel_state() const { return running_->publication->shown(); }
 
-void Host::conclude(const BladeVerdict& verdict) {
-  running_->publication->conclude(verdict, running_->judged_again);
+void Host::conclude(const Conclusion& conclusion) {
+  running_->publication->conclude(conclusion, running_->judged_again);
   shared_.to_publication.wakeup.signal();
 }
 

@@ -6,6 +6,7 @@
 #include "core/inspection/shaft_axis.hpp"
 #include "core/localizer.hpp"
 #include "drivers/source/probe_source.hpp"
+#include "firmware_bridge/host/panel/conclusion.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/session_result.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
@@ -64,9 +65,9 @@ class Host {
   /// once, after wait_for_end() was true. The panel goes on showing it, as ended, until the host is destroyed.
   [[nodiscard]] SessionResult finish(JudgedPoints& points);
 
-  /// Shows the verdict of the whole result on the panel, and that the session has ended; what was found beside the fit
-  /// is known there alone. After finish().
-  void conclude(const BladeVerdict& verdict);
+  /// Shows on the panel what the whole result came to, and that the session has ended; what was found beside the fit is
+  /// known there alone. After finish().
+  void conclude(const Conclusion& conclusion);
 
  private:
   struct Running;

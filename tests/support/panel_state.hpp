@@ -44,6 +44,8 @@ inline PanelState known_state() {
   state.leading_edge_out = 70003;
   state.rest_out = 70004;
   state.rejected = 70005;
+  state.otherwise_count = 71150;
+  state.otherwise = {71152, 71154};
   state.rms = 0.014F;
   state.leading_edge_rms = 0.016F;
   state.worst_leading_edge = -0.018F;

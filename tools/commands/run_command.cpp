@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -143,6 +144,15 @@ WrittenFiles write_files(const RunPlan& plan, const Result& result) {
   return files;
 }
 
+/// What the panel goes on showing.
+Conclusion conclusion_of(const Result& result) {
+  Conclusion conclusion{{result.verdict.state, result.verdict.codes()}};
+  conclusion.otherwise_count = static_cast<std::uint32_t>(result.judged_otherwise.size());
+  const std::size_t listed = std::min(result.judged_otherwise.size(), conclusion.otherwise.size());
+  std::copy_n(result.judged_otherwise.begin(), listed, conclusion.otherwise.begin());
+  return conclusion;
+}
+
 /// Writes what the session came to, also after a fault: then of the points stored before it. Whatever cannot be written
 /// keeps nothing else from it.
 int conclude(const RunPlan& plan, Host& host, const Words& words) {
@@ -161,7 +171,7 @@ int conclude(const RunPlan& plan, Host& host, const Words& words) {
   }
   const Result result =
       result_of(plan.image, plan.fit, points.rows, session.report, stream, plan.host.session_directory);
-  host.conclude({result.verdict.state, result.verdict.codes()});
+  host.conclude(conclusion_of(result));
   const WrittenFiles files = write_files(plan, result);
   std::string text = told_of(operator_summary(result), plan.volume);
   if (!plan.volume.quiet) text.insert(0, fmt::format("Session ended: {}\n", ending(session, points.rows.size())));

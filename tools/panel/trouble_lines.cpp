@@ -36,6 +36,21 @@ std::string infeasible_trouble(const PanelState& state) {
   return text;
 }
 
+std::string otherwise_trouble(const PanelState& state) {
+  const std::uint32_t count = state.otherwise_count;
+  std::string text = fmt::format("A ROBUST FIT JUDGES {} {} OTHERWISE", count, count == 1 ? "POINT" : "POINTS");
+  const char* joint = ": ";
+  std::uint32_t listed = 0;
+  for (const std::uint32_t sequence : state.otherwise) {
+    if (sequence == 0) continue;
+    ++listed;
+    text += fmt::format("{}{}", joint, sequence);
+    joint = " ";
+  }
+  if (listed > 0 && listed < count) text += fmt::format(" and {} more", count - listed);
+  return text + "; judge again with --loss tukey";
+}
+
 }  // namespace
 
 void put_trouble(const ScreenView& view, Page& page, int height) {
@@ -54,6 +69,7 @@ void put_trouble(const ScreenView& view, Page& page, int height) {
   if (has(state, kAlarmLinkLost)) put(link_trouble(state), most);
   if (has(state, kAlarmDataGap) || (state.reasons & kReasonPointsMissing) != 0) put(gap_trouble(state), most - 1);
   if (has(state, kAlarmInfeasible)) put(infeasible_trouble(state), most - 1);
+  if ((state.reasons & kReasonOtherwise) != 0) put(otherwise_trouble(state), most - 1);
   if (has(state, kAlarmMemoryFull))
     put("MEMORY FULL: older points follow the fit no more; raise capacity in the session file", most - 1);
 }

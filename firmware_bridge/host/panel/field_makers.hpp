@@ -60,6 +60,22 @@ constexpr PanelField element(std::uint16_t address, PanelUnit unit, std::string_
           [](PanelState& state, std::size_t, std::uint32_t bits) { set_bits(bits, (state.*member)[index]); }};
 }
 
+/// A list of the state.
+template <auto member, std::uint16_t count>
+constexpr PanelField list(std::uint16_t address, std::string_view name, std::string_view meaning) {
+  using Value = std::remove_cvref_t<decltype((std::declval<PanelState&>().*member)[0])>;
+  constexpr PanelType type = type_of<Value>();
+  return {address,
+          type,
+          PanelUnit::none,
+          name,
+          meaning,
+          [](const PanelState& state, std::size_t item) { return bits_of((state.*member)[item]); },
+          [](PanelState& state, std::size_t item, std::uint32_t bits) { set_bits(bits, (state.*member)[item]); },
+          count,
+          type == PanelType::word ? 1 : 2};
+}
+
 /// The same member of each of the newest places.
 template <auto member>
 constexpr PanelField places(std::uint16_t address, std::uint16_t stride, PanelUnit unit, std::string_view name,

@@ -64,17 +64,14 @@ constexpr auto kFields = std::to_array<PanelField>({
     places<&Place::radius>(205, 8, millimetre, "newest_radius", "distance from the shaft axis"),
     places<&Place::action>(207, 8, none, "newest_action", kActions),
     field<&State::improving>(264, none, "improving", "1: the optimum of the mode still improves"),
-    PanelField{265, PanelType::wide, none, "support_point",
-               "numbers of the points that prove the smallest feasible tolerance; 0 = no more",
-               [](const State& state, std::size_t item) { return state.support[item]; },
-               [](State& state, std::size_t item, std::uint32_t bits) { state.support[item] = bits; }, kPanelSupport,
-               2},
+    list<&State::support, kPanelListed>(
+        265, "support_point", "numbers of the points that prove the smallest feasible tolerance; 0 = no more"),
     field<&State::verdict>(281, none, "verdict", "0 not judged, 1 in tolerance, 2 out of tolerance, 3 not decided"),
     field<&State::reasons>(
         282, none, "reasons",
         "bit 0 not converged, 1 underdetermined, 2 unproven, 3 points lost or refused, 4 leading-edge "
         "zone not probed, 5 pending, undecided or unfinished, 6 link lost, 7 wrong units or mirrored, "
-        "8 ambiguous or far start, 9 not judged: a tolerance is infinite"),
+        "8 ambiguous or far start, 9 not judged: a tolerance is infinite, 10 a robust fit judges points otherwise"),
     PanelField{283, PanelType::real, none, "test_real", "12345.678; another value: the word order is wrong",
                [](const State&, std::size_t) { return bits_of(kPanelTestReal); }},
     constant<kPanelTestWord>(285, "test_word", "0x12345678 = 305419896; another value: the word order is wrong"),
@@ -104,6 +101,9 @@ constexpr auto kFields = std::to_array<PanelField>({
                                              "points off the leading edge on the suction side, by tenths of r/R; "
                                              "65535 = no surface there"),
     blade_list<&View::pressure, View::kBands>(1140, "pressure", "the same on the pressure side"),
+    field<&State::otherwise_count>(1150, none, "otherwise",
+                                   "how many points a robust fit judges otherwise; known when the session has ended"),
+    list<&State::otherwise, kPanelListed>(1152, "otherwise_point", "numbers of the first of them; 0 = no more"),
     defects<&Defect::sequence>(1200, none, "defect_point",
                                "neighbouring points out of tolerance, worst first: number of the worst; 0 = none"),
     defects<&Defect::from_ratio>(1202, none, "defect_from", "smallest r/R of its points"),

@@ -18,7 +18,7 @@ inline constexpr std::size_t kPanelRegisters = 92;  ///< of v1, from 0
 inline constexpr std::size_t kPanelPlaces = 8;
 inline constexpr std::uint16_t kExtensionBase = 200;
 inline constexpr std::size_t kExtensionRegisters = 90;
-inline constexpr std::size_t kPanelSupport = 8;
+inline constexpr std::size_t kPanelListed = 8;  ///< points whose numbers are listed
 inline constexpr std::uint16_t kTextBase = 300;
 inline constexpr std::size_t kPanelTexts = 6;
 inline constexpr std::uint16_t kTextRegisters = 40;     ///< of each text, two characters a register
@@ -65,6 +65,7 @@ enum PanelReason : std::uint16_t {
   kReasonWrongWorld = 128,   ///< wrong units, or a mirrored blade
   kReasonAmbiguous = 256,    ///< another fit may be as good
   kReasonNoTolerance = 512,  ///< a region is not judged: its tolerance is infinite
+  kReasonOtherwise = 1024,   ///< a robust fit judges points otherwise
 };
 
 /// The bits that stand for a set of reasons.
@@ -103,14 +104,16 @@ struct PanelState {
   float smallest_feasible = 0;
   std::uint16_t determined = 0;
   bool improving = false;
-  std::array<std::uint32_t, kPanelSupport> support{};  ///< points that prove the smallest tolerance; 0 = no more
+  std::array<std::uint32_t, kPanelListed> support{};  ///< points that prove the smallest tolerance; 0 = no more
   BladeState verdict = BladeState::not_decided;
-  std::uint16_t reasons = 0;                   ///< PanelReason bits
-  std::uint32_t planned = 0;                   ///< points that will come; 0 = not known
-  bool ended = false;                          ///< the session is over, what is shown is its result
-  std::array<std::string, kPanelTexts> texts;  ///< see PanelText
-  std::uint32_t link_down_s = 0;               ///< how long the link has been lost; 0: it is not
-  std::uint32_t lost = 0;                      ///< records of the device that never came
+  std::uint16_t reasons = 0;                            ///< PanelReason bits
+  std::uint32_t otherwise_count = 0;                    ///< points that a robust fit judges otherwise; known at the end
+  std::array<std::uint32_t, kPanelListed> otherwise{};  ///< the first of them; 0 = no more
+  std::uint32_t planned = 0;                            ///< points that will come; 0 = not known
+  bool ended = false;                                   ///< the session is over, what is shown is its result
+  std::array<std::string, kPanelTexts> texts;           ///< see PanelText
+  std::uint32_t link_down_s = 0;                        ///< how long the link has been lost; 0: it is not
+  std::uint32_t lost = 0;                               ///< records of the device that never came
   BladeView blade;
   bool has_blade = false;       ///< whether `blade`, `link_down_s`, `lost` and the last three texts are known
   bool fit_determined = false;  ///< every degree of freedom that is not locked; not in a register

@@ -78,9 +78,9 @@ PanelState Publication::shown() {
   return common_.shown;
 }
 
-void Publication::conclude(const BladeVerdict& verdict, std::shared_ptr<const Tally> judged_again) {
+void Publication::conclude(const Conclusion& conclusion, std::shared_ptr<const Tally> judged_again) {
   const std::lock_guard lock(common_.mutex);
-  common_.concluded = verdict;
+  common_.concluded = conclusion;
   common_.judged_again = std::move(judged_again);
 }
 
@@ -184,12 +184,16 @@ void Publication::update_verdict() {
                    .zones_missed = tally().zones().missed(),
                    .finished = figures_.losses.finished(),
                    .doubts = {}});
-  const BladeVerdict verdict = common_.concluded.value_or(counted);
+  const Conclusion conclusion = common_.concluded.value_or(Conclusion{counted});
+  const BladeVerdict& verdict = conclusion.verdict;
   state_.verdict = verdict.state;
   state_.reasons = reason_bits(verdict.reasons);
   if (link_.link == LinkState::lost) state_.reasons |= kReasonLinkLost;
   const bool both_judged = std::isfinite(tolerance_.leading_edge_mm) && std::isfinite(tolerance_.rest_mm);
   if (!both_judged) state_.reasons |= kReasonNoTolerance;
+  if (conclusion.otherwise_count > 0) state_.reasons |= kReasonOtherwise;
+  state_.otherwise_count = conclusion.otherwise_count;
+  state_.otherwise = conclusion.otherwise;
   state_.fit_determined = report.determined == report.free;
   state_.planned = link_.planned;
   state_.texts[kVerdictText] = verdict_words(state_);

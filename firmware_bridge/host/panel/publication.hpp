@@ -6,6 +6,7 @@
 
 #include "core/inspection/tolerance_map.hpp"
 #include "firmware_bridge/host/blade/blade_layout.hpp"
+#include "firmware_bridge/host/panel/conclusion.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/panel/tally.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
@@ -27,10 +28,10 @@ class Publication {
   /// What the panel shows now. Any thread.
   [[nodiscard]] PanelState shown();
 
-  /// The verdict on the blade when the session has ended, with what was found against its fit elsewhere: it stands
+  /// What the session came to, with what was found against its fit elsewhere: its verdict stands
   /// instead of that which follows from counts and fit. `judged_again`, where there is one, counts every point at the
   /// final pose. Any thread.
-  void conclude(const BladeVerdict& verdict, std::shared_ptr<const Tally> judged_again);
+  void conclude(const Conclusion& conclusion, std::shared_ptr<const Tally> judged_again);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -73,7 +74,7 @@ class Publication {
   struct Shared {
     std::mutex mutex;
     PanelState shown;
-    std::optional<BladeVerdict> concluded;
+    std::optional<Conclusion> concluded;
     std::shared_ptr<const Tally> judged_again;
   } common_;
   Clock::time_point start_ = Clock::now();

@@ -125,7 +125,7 @@ TEST(HostFaults, WithAFullMemoryThePanelEndsWithTheCountsOfTheResult) {
   EXPECT_GT(out, 0U);
   BladeVerdict verdict;
   verdict.reasons.add(Reason::ambiguous);
-  host.conclude(verdict);
+  host.conclude({verdict});
   const auto until = std::chrono::steady_clock::now() + 10s;
   while ((host.panel_state().reasons & kReasonAmbiguous) == 0 && std::chrono::steady_clock::now() < until)
     std::this_thread::sleep_for(5ms);

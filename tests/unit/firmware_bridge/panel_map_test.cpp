@@ -108,6 +108,20 @@ TEST(BridgePanelMap, NamesThePointsThatProveTheSmallestTolerance) {
   EXPECT_EQ(read.support, state.support);
 }
 
+TEST(BridgePanelMap, NamesThePointsThatARobustFitJudgesOtherwise) {
+  PanelState state;
+  state.reasons = kReasonOtherwise;
+  state.otherwise_count = 65537;
+  state.otherwise = {118, 70000};
+  const PanelImage image = encode_panel(state, {});
+  EXPECT_EQ(image.registers[282], 1U << 10U);
+  EXPECT_EQ(image.registers[1150], 1);
+  EXPECT_EQ(image.registers[1151], 1);
+  EXPECT_EQ(image.registers[1153], 118);
+  EXPECT_EQ(image.registers[1155], 70000 - 65536);
+  EXPECT_EQ(image.registers[1157], 0);
+}
+
 TEST(BridgePanelMap, DiscreteInputsFollowTheState) {
   PanelState state;
   EXPECT_EQ(encode_panel(state, {}).discrete, first_inputs({false, false, false, false, false, true}));

@@ -52,7 +52,7 @@ class WatchedSession {
     return testing::finish_whole(host_);
   }
 
-  void conclude(const BladeVerdict& verdict) { host_.conclude(verdict); }
+  void conclude(const Conclusion& conclusion) { host_.conclude(conclusion); }
 
   /// What the session's own screen gets.
   [[nodiscard]] PanelState own() const { return host_.panel_state(); }
@@ -100,11 +100,13 @@ TEST(SessionPanel, EndsWithTheVerdictOfTheWholeResult) {
   EXPECT_FALSE(session.stop().error);
   BladeVerdict verdict;
   verdict.reasons.add(Reason::ambiguous);
-  session.conclude(verdict);
+  session.conclude({.verdict = verdict, .otherwise_count = 9, .otherwise = {12, 13}});
   EXPECT_TRUE(session.shows([](const PanelState& shown) {
-    return shown.verdict == BladeState::not_decided && shown.reasons == kReasonAmbiguous;
+    return shown.verdict == BladeState::not_decided && shown.reasons == (kReasonAmbiguous | kReasonOtherwise);
   }));
-  EXPECT_EQ(session.own().reasons, kReasonAmbiguous) << "the session's own screen shows the same";
+  EXPECT_EQ(session.panel.otherwise_count, 9U);
+  EXPECT_EQ(session.panel.otherwise[1], 13U);
+  EXPECT_EQ(session.own().reasons, session.panel.reasons) << "the session's own screen shows the same";
 }
 
 TEST(SessionPanel, StaysWithTheResultOfAnEndedSession) {
@@ -112,7 +114,7 @@ TEST(SessionPanel, StaysWithTheResultOfAnEndedSession) {
   WatchedSession session(source);
   ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.points == kSessionPoints && !shown.ended; }));
   const testing::WholeResult result = session.stop();
-  session.conclude({BladeState::in_tolerance, {}});
+  session.conclude({{BladeState::in_tolerance, {}}});
   ASSERT_TRUE(session.shows([](const PanelState& shown) { return shown.ended; }));
   EXPECT_EQ(session.panel.verdict, BladeState::in_tolerance);
   EXPECT_EQ(session.panel.points, result.points.size());

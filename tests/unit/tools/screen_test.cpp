@@ -209,6 +209,17 @@ TEST(BridgeScreen, FiguresNameThePointsThatCannotBeMetTogether) {
   EXPECT_NE(status_line(view).find("INFEASIBLE by points 118 407"), std::string::npos);
 }
 
+TEST(BridgeScreen, NamesThePointsThatARobustFitJudgesOtherwise) {
+  ScreenView view = known_view();
+  view.state.alarms = 0;
+  view.state.reasons = kReasonOtherwise;
+  view.state.otherwise_count = 34;
+  view.state.otherwise = {12, 13};
+  expect_words(drawn(view, kUsual), {"A ROBUST FIT JUDGES 34 POINTS OTHERWISE: 12 13 and 32 more;"});
+  view.state.reasons = 0;
+  EXPECT_EQ(drawn(view, kUsual).find("ROBUST"), std::string::npos);
+}
+
 TEST(BridgeScreen, TheStripShowsTheWorstOfAPlace) {
   const BladeView blade = testing::known_blade();
   const std::string signs = edge_signs(blade, 1);
