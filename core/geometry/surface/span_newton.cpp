@@ -5,7 +5,7 @@
 namespace bladefit {
 namespace {
 
-[[gnu::always_inline]] inline double dot(const Homogeneous& a, const Homogeneous& b) {
+[[gnu::always_inline]] inline double homogeneous_dot(const Homogeneous& a, const Homogeneous& b) {
   const Homogeneous c = a * b;
   return c[0] + c[1] + c[2];
 }
@@ -21,8 +21,8 @@ SpanEnd newton_in_span(const SpanTask& task, SpanFoot& foot) {
         evaluate_taylor(task.taylor, task.degree_u, task.degree_v, x, y, h);
         project(h);
         const Homogeneous offset = r - h.a;
-        at.square = dot(offset, offset);
-        at.quadratic = quadratic_at(h.a_u, h.a_v, h.a_uu, h.a_uv, h.a_vv, offset, dot);
+        at.square = homogeneous_dot(offset, offset);
+        at.quadratic = quadratic_at(h.a_u, h.a_v, h.a_uu, h.a_uv, h.a_vv, offset, homogeneous_dot);
         return at;
       });
 }

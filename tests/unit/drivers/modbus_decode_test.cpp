@@ -82,7 +82,7 @@ void put_double_at(Words& words, std::size_t at, double value) {
     words[at + word] = static_cast<std::uint16_t>(bits >> (48U - 16U * word));
 }
 
-Words record(std::uint32_t sequence) {
+Words record_words(std::uint32_t sequence) {
   Words words(cmm_map_v1::kRecordSize);
   words[0] = static_cast<std::uint16_t>(sequence >> 16U);
   words[1] = static_cast<std::uint16_t>(sequence & 0xFFFFU);
@@ -99,7 +99,7 @@ void seal(Words& words) { words[19] = crc16(std::span<const std::uint16_t>(words
 
 TEST(CmmRecord, DecodesMapV1) {
   ProbePoint point;
-  ASSERT_EQ(decode_record(record(70000), CmmMap{}, 70000, point).message, "");
+  ASSERT_EQ(decode_record(record_words(70000), CmmMap{}, 70000, point).message, "");
   EXPECT_EQ(point.sequence, 70000U);
   EXPECT_EQ(point.position, (std::array<double, 3>{1.5, -2.5, 1e-3}));
   EXPECT_EQ(point.approach, (std::array<double, 3>{0, 0, -1}));
@@ -126,7 +126,7 @@ TEST(CmmRecord, DecodesAnotherMap) {
 
 TEST(CmmRecord, RefusesEveryChangedBit) {
   for (std::size_t bit = 0; bit < 16U * cmm_map_v1::kRecordSize; ++bit) {
-    Words words = record(9);
+    Words words = record_words(9);
     words[bit / 16] = static_cast<std::uint16_t>(words[bit / 16] ^ (1U << bit % 16));
     ProbePoint point;
     EXPECT_NE(decode_record(words, CmmMap{}, 9, point).message, "") << bit;
@@ -136,16 +136,16 @@ TEST(CmmRecord, RefusesEveryChangedBit) {
 
 TEST(CmmRecord, SaysWhatIsWrong) {
   ProbePoint point;
-  EXPECT_EQ(decode_record(record(8), CmmMap{}, 9, point).message, "record 9: its place holds record 8");
-  Words words = record(9);
+  EXPECT_EQ(decode_record(record_words(8), CmmMap{}, 9, point).message, "record 9: its place holds record 8");
+  Words words = record_words(9);
   words[18] = 3;
   seal(words);
   EXPECT_EQ(decode_record(words, CmmMap{}, 9, point).message, "record 9: the device marks it as bad, status 3");
-  words = record(9);
+  words = record_words(9);
   put_double_at(words, 6, std::numeric_limits<double>::infinity());
   seal(words);
   EXPECT_EQ(decode_record(words, CmmMap{}, 9, point).message, "record 9: y is not a finite number");
-  words = record(9);
+  words = record_words(9);
   words[14] = 20000;
   seal(words);
   EXPECT_NE(decode_record(words, CmmMap{}, 9, point).message.find("its direction has the length 1.17"),
