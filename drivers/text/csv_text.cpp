@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kQuotedCharacters = 40;
 constexpr std::size_t kListed = 6;
+constexpr std::size_t kListedCharacters = 100;
 constexpr char kEndOfFile = '\x1A';
 
 /// Two bytes a character: a byte order mark, or a first character whose other byte is 0.
@@ -47,9 +48,13 @@ std::string in_quotes(std::string_view text) {
 
 std::string quoted_list(const std::vector<std::string_view>& texts) {
   std::string list;
-  for (std::size_t k = 0; k < std::min(texts.size(), kListed); ++k)
-    list += fmt::format("{}{}", k == 0 ? "" : ", ", in_quotes(texts[k]));
-  if (texts.size() > kListed) list += fmt::format(" and {} more", texts.size() - kListed);
+  std::size_t listed = 0;
+  for (; listed < std::min(texts.size(), kListed); ++listed) {
+    const std::string next = in_quotes(texts[listed]);
+    if (listed > 0 && list.size() + next.size() > kListedCharacters) break;
+    list += fmt::format("{}{}", listed == 0 ? "" : ", ", next);
+  }
+  if (texts.size() > listed) list += fmt::format(" and {} more", texts.size() - listed);
   return list;
 }
 

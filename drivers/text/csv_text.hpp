@@ -23,7 +23,7 @@ struct CsvPlace {
 /// The first 40 characters of `text` in quotation marks, for messages; what cannot be printed becomes '?'.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-/// The first six of `texts` in quotation marks, "and 131 more" for the others.
+/// The first of `texts` in quotation marks, six or 100 characters at most, "and 131 more" for the others.
 [[nodiscard]] std::string quoted_list(const std::vector<std::string_view>& texts);
 
 /// Takes the first line off `text`, which must not be empty. A line ends with LF, CR LF or CR. `ended`, where it is
