@@ -46,6 +46,8 @@ const char* status_text(Status status) {
       return "the design image is damaged (CRC): compile the design again";
     case Status::bad_content:
       return "the design image contradicts itself: compile the design again";
+    case Status::bad_byte_order:
+      return "a design image made for a processor of the other byte order: compile the design for this one";
   }
   return "unknown status";
 }

@@ -22,11 +22,12 @@ enum class Status : std::int32_t {
   infeasible = -7,
   unbounded = -8,
   not_convex = -9,
-  bad_magic = -20,    ///< not a design image
-  bad_version = -21,  ///< an image of another format version
-  bad_length = -22,   ///< the image is shorter or longer than it says
-  bad_crc = -23,      ///< the image is damaged
-  bad_content = -24,  ///< the image contradicts itself
+  bad_magic = -20,       ///< not a design image
+  bad_version = -21,     ///< an image of another format version
+  bad_length = -22,      ///< the image is shorter or longer than it says
+  bad_crc = -23,         ///< the image is damaged
+  bad_content = -24,     ///< the image contradicts itself
+  bad_byte_order = -25,  ///< an image of this version, made for a processor of the other byte order
 };
 
 /// True where the call did what was asked, perhaps with a qualification.

@@ -19,9 +19,12 @@ Mat3 rotation_from(const double (&rows)[9]) {
 
 /// What the core's narrower types cannot hold, which check_config() therefore cannot see.
 bool numbers_fit(const bladefit_config& config) {
-  return config.use_approach <= 1 && config.edges <= BLADEFIT_EDGES_USE && config.box_count <= BLADEFIT_MAX_BOXES &&
-         config.mode < kFitModeWords.size() && config.regions <= BLADEFIT_REGIONS_FIXED && config.locked <= kLockAll &&
-         config.loss <= BLADEFIT_LOSS_TUKEY && config.decision <= BLADEFIT_GUARDED;
+  const auto reserved = [](const bladefit_box& box) { return box.reserved != 0; };
+  if (config.reserved != 0 || config.box_count > BLADEFIT_MAX_BOXES) return false;
+  if (std::ranges::any_of(std::span(config.boxes).first(config.box_count), reserved)) return false;
+  return config.use_approach <= 1 && config.edges <= BLADEFIT_EDGES_USE && config.mode < kFitModeWords.size() &&
+         config.regions <= BLADEFIT_REGIONS_FIXED && config.locked <= kLockAll && config.loss <= BLADEFIT_LOSS_TUKEY &&
+         config.decision <= BLADEFIT_GUARDED;
 }
 
 ToleranceMap tolerance_from(const bladefit_config& config) {
@@ -79,7 +82,7 @@ bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& t
 }
 
 bladefit_status translate_point(const bladefit_point& from, ProbePoint& to) {
-  if (from.path > std::numeric_limits<std::uint16_t>::max()) return BLADEFIT_OUT_OF_RANGE;
+  if (from.reserved != 0 || from.path > std::numeric_limits<std::uint16_t>::max()) return BLADEFIT_OUT_OF_RANGE;
   to.sequence = from.sequence;
   to.path = static_cast<std::uint16_t>(from.path);
   std::ranges::copy(from.position, to.position.begin());

@@ -22,8 +22,8 @@ using bladefit::LocalizerConfig;
 using bladefit::Status;
 using bladefit::Verdict;
 
-/// Marks memory that bladefit_init() has made a fit in.
-constexpr std::uint64_t kHandleMark = 0x626C616465666974ULL;
+/// Marks memory that bladefit_init() has made a fit in, and no copy of it elsewhere.
+std::uint64_t mark_of(const void* memory) { return 0x626C616465666974ULL ^ reinterpret_cast<std::uintptr_t>(memory); }
 constexpr std::size_t kHeadSize = BLADEFIT_MEMORY_ALIGNMENT;
 static_assert(sizeof(bladefit_handle) <= kHeadSize);
 
@@ -43,7 +43,7 @@ bladefit_status check_struct(const Struct* pointer) {
 bladefit_status check_handle(const bladefit_handle* handle) {
   const bladefit_status status = check_pointer(handle, BLADEFIT_MEMORY_ALIGNMENT);
   if (status != BLADEFIT_OK) return status;
-  return handle->mark == kHandleMark ? BLADEFIT_OK : BLADEFIT_BAD_HANDLE;
+  return handle->mark == mark_of(handle) ? BLADEFIT_OK : BLADEFIT_BAD_HANDLE;
 }
 
 template <typename Struct>
@@ -105,7 +105,7 @@ bladefit_status bladefit_init(void* memory, size_t memory_size, const void* desi
   Localizer* localizer = nullptr;
   const Status status = Localizer::create(block.subspan(kHeadSize), image, translated, localizer);
   if (status != Status::ok) return to_abi(status);
-  *handle = new (memory) bladefit_handle{kHandleMark, localizer};
+  *handle = new (memory) bladefit_handle{mark_of(memory), localizer};
   return BLADEFIT_OK;
 }
 

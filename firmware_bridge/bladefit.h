@@ -14,7 +14,7 @@
  *
  * Threads: a handle belongs to one thread at a time; two handles may be used by two threads at once, also on the same
  * design. States: a handle exists from a bladefit_init() that returned BLADEFIT_OK until its memory is used for
- * something else; there is nothing to close.
+ * something else; there is nothing to close. A copy of its memory is no handle: it is refused with BAD_HANDLE.
  *
  * Arguments: every pointer is checked for null and for the alignment of its type, every struct_size and every number
  * before anything is done. A negative status means that nothing has changed, the handle and all outputs included. */
@@ -53,16 +53,17 @@ enum {
   BLADEFIT_NULL_ARGUMENT = -1,
   BLADEFIT_NOT_ENOUGH_MEMORY = -2,
   BLADEFIT_MISALIGNED = -3,
-  BLADEFIT_NOT_FINITE = -4,   /* a number is NaN or infinite where it must not be */
-  BLADEFIT_OUT_OF_RANGE = -5, /* a number is outside what its field allows */
-  BLADEFIT_NOT_FOUND = -6,    /* no such point, or no revision waits */
-  BLADEFIT_BAD_SIZE = -7,     /* struct_size is not that of this version of the struct */
-  BLADEFIT_BAD_HANDLE = -8,   /* the handle does not come from a successful bladefit_init() */
-  BLADEFIT_BAD_MAGIC = -20,   /* the design is not a design image */
-  BLADEFIT_BAD_VERSION = -21, /* the design image is of another format version */
-  BLADEFIT_BAD_LENGTH = -22,  /* the design image is shorter or longer than it says */
-  BLADEFIT_BAD_CRC = -23,     /* the design image is damaged */
-  BLADEFIT_BAD_CONTENT = -24  /* the design image contradicts itself */
+  BLADEFIT_NOT_FINITE = -4,     /* a number is NaN or infinite where it must not be */
+  BLADEFIT_OUT_OF_RANGE = -5,   /* a number is outside what its field allows */
+  BLADEFIT_NOT_FOUND = -6,      /* no such point, or no revision waits */
+  BLADEFIT_BAD_SIZE = -7,       /* struct_size is not that of this version of the struct */
+  BLADEFIT_BAD_HANDLE = -8,     /* the handle does not come from a successful bladefit_init() */
+  BLADEFIT_BAD_MAGIC = -20,     /* the design is not a design image */
+  BLADEFIT_BAD_VERSION = -21,   /* the design image is of another format version */
+  BLADEFIT_BAD_LENGTH = -22,    /* the design image is shorter or longer than it says */
+  BLADEFIT_BAD_CRC = -23,       /* the design image is damaged */
+  BLADEFIT_BAD_CONTENT = -24,   /* the design image contradicts itself */
+  BLADEFIT_BAD_BYTE_ORDER = -25 /* the design image is of this version, but for a processor of the other byte order */
 };
 
 enum { BLADEFIT_EDGES_SKIP = 0, BLADEFIT_EDGES_USE = 1 }; /* bladefit_config.edges */
@@ -162,7 +163,7 @@ typedef struct bladefit_config {
 /* One touch of the probe, in the machine's coordinates. */
 typedef struct bladefit_point {
   uint32_t struct_size; /* sizeof(bladefit_point) */
-  uint32_t sequence;    /* >= 1, rising */
+  uint32_t sequence;    /* >= 1, rising; after 4294967295 every point is a duplicate until bladefit_reset() */
   uint32_t path;        /* scan line, 0..65535; 0 = unknown */
   uint32_t reserved;    /* 0 */
   double position[3];   /* [mm] */
@@ -253,7 +254,8 @@ size_t bladefit_memory_required(const bladefit_config* config, const void* desig
 /* Makes a fit in `memory` and writes its handle. `design` is a design image (.bfd), 8-byte aligned; it is used in place
  * and must stay as it is while the handle is used. `memory` (BLADEFIT_MEMORY_ALIGNMENT) must not hold a fit that
  * another thread is using. Cost: linear in memory_size and design_size. Returns OK, NULL_ARGUMENT, MISALIGNED,
- * BAD_SIZE, NOT_FINITE, OUT_OF_RANGE, NOT_ENOUGH_MEMORY, BAD_MAGIC, BAD_VERSION, BAD_LENGTH, BAD_CRC or BAD_CONTENT. */
+ * BAD_SIZE, NOT_FINITE, OUT_OF_RANGE, NOT_ENOUGH_MEMORY, BAD_MAGIC, BAD_BYTE_ORDER, BAD_VERSION, BAD_LENGTH, BAD_CRC or
+ * BAD_CONTENT. */
 bladefit_status bladefit_init(void* memory, size_t memory_size, const void* design, size_t design_size,
                               const bladefit_config* config, bladefit_handle** handle);
 

@@ -163,8 +163,13 @@ bool leaves_valid(const DesignImage& image) {
   return i == image.leaves().size();
 }
 
+constexpr std::uint32_t swapped(std::uint32_t word) {
+  return word << 24U | (word & 0xFF00U) << 8U | (word >> 8U & 0xFF00U) | word >> 24U;
+}
+
 Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
   if (std::memcmp(h.magic, kImageMagic, sizeof kImageMagic) != 0) return Status::bad_magic;
+  if (h.version == swapped(kImageVersion)) return Status::bad_byte_order;
   if (h.version != kImageVersion) return Status::bad_version;
   if (h.total_size != bytes.size()) return Status::bad_length;
   if (image_crc(bytes) != h.crc32) return Status::bad_crc;

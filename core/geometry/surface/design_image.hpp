@@ -141,8 +141,8 @@ static_assert(sizeof(ImageHeader) == 216 && sizeof(ImagePatch) == 48 && sizeof(I
 class DesignImage {
  public:
   /// Checks length, magic, version, CRC and every index, number and box of `bytes` before it is trusted.
-  /// Returns ok, null_argument, misaligned (8 bytes), bad_length, bad_magic, bad_version, bad_crc or bad_content;
-  /// `image` is written only with ok. Cost: linear in the size; done once.
+  /// Returns ok, null_argument, misaligned (8 bytes), bad_length, bad_magic, bad_byte_order, bad_version, bad_crc or
+  /// bad_content; `image` is written only with ok. Cost: linear in the size; done once.
   [[nodiscard]] static Status open(std::span<const std::byte> bytes, DesignImage& image);
 
   [[nodiscard]] const ImageHeader& header() const { return *header_; }

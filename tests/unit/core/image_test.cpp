@@ -150,6 +150,9 @@ TEST(DesignImage, NamesWhatIsWrong) {
   bytes[offsetof(ImageHeader, version)] = std::byte{9};
   EXPECT_EQ(status_of(bytes), Status::bad_version);
   bytes = small_image();
+  std::reverse(bytes.begin() + offsetof(ImageHeader, version), bytes.begin() + offsetof(ImageHeader, version) + 4);
+  EXPECT_EQ(status_of(bytes), Status::bad_byte_order);
+  bytes = small_image();
   bytes.back() ^= std::byte{1};
   EXPECT_EQ(status_of(bytes), Status::bad_crc);
 }

@@ -159,6 +159,8 @@ const std::vector<BadConfig>& bad_configs() {
       {"approach 2", [](auto& c) { c.use_approach = 2; }, BLADEFIT_OUT_OF_RANGE},
       {"edges 2", [](auto& c) { c.edges = 2; }, BLADEFIT_OUT_OF_RANGE},
       {"boxes 33", [](auto& c) { c.box_count = 33; }, BLADEFIT_OUT_OF_RANGE},
+      {"reserved 1", [](auto& c) { c.reserved = 1; }, BLADEFIT_OUT_OF_RANGE},
+      {"reserved 1 of a box", [](auto& c) { c.boxes[0].reserved = c.box_count = 1; }, BLADEFIT_OUT_OF_RANGE},
       {"boxes huge", [](auto& c) { c.box_count = UINT32_MAX; }, BLADEFIT_OUT_OF_RANGE},
       {"radius NaN", [](auto& c) { c.probe_radius_mm = kNan; }, BLADEFIT_NOT_FINITE},
       {"radius inf", [](auto& c) { c.probe_radius_mm = kInfinity; }, BLADEFIT_NOT_FINITE},
@@ -212,6 +214,7 @@ TEST_F(BridgeCAbi, PushRefusesBadArgumentsAndChangesNothing) {
   expect(BLADEFIT_BAD_SIZE, [](auto& p) { p.struct_size = 8; });
   expect(BLADEFIT_OUT_OF_RANGE, [](auto& p) { p.sequence = 0; });
   expect(BLADEFIT_OUT_OF_RANGE, [](auto& p) { p.path = 65536; });
+  expect(BLADEFIT_OUT_OF_RANGE, [](auto& p) { p.reserved = 1; });
   expect(BLADEFIT_OUT_OF_RANGE, [](auto& p) { p.approach[0] = 3; });
   expect(BLADEFIT_NOT_FINITE, [](auto& p) { p.position[2] = kNan; });
   expect(BLADEFIT_NOT_FINITE, [](auto& p) { p.position[0] = -kInfinity; });
@@ -238,6 +241,25 @@ TEST_F(BridgeCAbi, MisalignedPointersAreRefused) {
   EXPECT_EQ(bladefit_reset(odd_handle), BLADEFIT_MISALIGNED);
   EXPECT_EQ(bladefit_conclude(odd_handle), BLADEFIT_MISALIGNED);
   EXPECT_EQ(bladefit_fit(handle_, reinterpret_cast<bladefit_fit_report*>(room.data() + 2)), BLADEFIT_MISALIGNED);
+}
+
+TEST_F(BridgeCAbi, ACopyIsNoHandle) {
+  const Memory copy = take_memory(size_);
+  std::memcpy(copy.get(), memory_.get(), size_);
+  EXPECT_EQ(bladefit_reset(reinterpret_cast<bladefit_handle*>(copy.get())), BLADEFIT_BAD_HANDLE);
+  EXPECT_EQ(report().points, 40U);
+}
+
+TEST_F(BridgeCAbi, ThePointAfterTheLastNumberIsADuplicate) {
+  bladefit_verdict verdict = empty_verdict();
+  bladefit_point point = point_at(41);
+  point.sequence = UINT32_MAX;
+  EXPECT_GE(bladefit_push(handle_, &point, &verdict), 0);
+  point.sequence = 1;
+  EXPECT_EQ(bladefit_push(handle_, &point, &verdict), BLADEFIT_DUPLICATE);
+  EXPECT_EQ(bladefit_reset(handle_), BLADEFIT_OK);
+  EXPECT_GE(bladefit_push(handle_, &point, &verdict), 0);
+  EXPECT_EQ(verdict.sequence, 1U);
 }
 
 TEST_F(BridgeCAbi, AHandleThatIsNoneIsRefused) {
