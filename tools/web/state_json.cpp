@@ -10,12 +10,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kMillionth = 1e-6;
+constexpr double kMillion = 1e6;
 
 /// To a millionth; null where it is not finite.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
-  return std::round(value / kMillionth) * kMillionth;
+  return std::round(value * kMillion) / kMillion;
 }
 
 Json numbers(std::span<const float> values) {

@@ -8,6 +8,9 @@ export const kColours = {
 
 export type Look = "in" | "cut" | "weld" | "undecided" | "pending" | "rejected";
 
+// Within tolerance: from that of a point at its lower limit over 0 to that at its upper one.
+export const kWithin = ["#5b9fd4", "#4f8f7c", "#d98a5c"] as const;
+
 export const kSigns: Record<Look, string> = { in: "●", cut: "▲", weld: "▼", undecided: "◆", pending: "○", rejected: "×" };
 
 export const kLookWords: Record<Look, string> = {

@@ -19,7 +19,8 @@ import type { Design, Piece, State } from "./types";
 import { Group, Vector3 } from "three";
 import { count } from "./words";
 
-const kStripEvery_ms = 200, kPick_px = 18, kDrag_px = 4, kWhiskers = 0.06;
+const kStripEvery_ms = 200, kPick_px = 18, kDrag_px = 4, kWhiskers = 0.09;
+const kFactors = [0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
 
 class Page {
   private state: State | null = null;
@@ -28,9 +29,11 @@ class Page {
   private lost: number | null = null;
   private paused = false;
   private follow = false;
+  private chosen = false; // whiskers are as long as somebody said
   private readonly waiting: Piece[] = []; // while paused
   private selected = 0; // sequence; 0: none
   private stripDue = false;
+  private oldest = Infinity; // time of the oldest verdict that is not drawn yet [ms]
   private readonly store: Store;
   private readonly marks: Marks;
   private readonly strip: Strip;
@@ -78,6 +81,7 @@ class Page {
     showFigures(state);
     showDefects(state, (sequence) => this.go(sequence));
     this.commands.show(state);
+    if (!this.chosen) this.fitFactor(state);
     this.drawStrip();
   }
 
@@ -99,7 +103,8 @@ class Page {
 
   private take(piece: Piece): void {
     if (piece.afresh) this.store.clear(this.design);
-    this.store.add(piece);
+    const oldest = this.store.add(piece);
+    if (!piece.afresh) this.oldest = Math.min(this.oldest, oldest);
     document.body.dataset.points = String(this.store.count);
     if (this.follow) this.showNewest();
     this.scene?.draw();
@@ -122,8 +127,10 @@ class Page {
     this.marks.update(ratio, this.design.half_diagonal);
     this.picked.show(this.store.place, slot, ratio);
     this.newest.show(this.store.place, this.state?.ended ? -1 : newest, ratio);
-    // When a record's mark is drawn, against when it was judged.
-    if (newest >= 0) document.body.dataset.drawn = `${this.store.sequence[newest]} ${Math.round(Date.now() - this.begun - this.store.time[newest])}`;
+    // How long after its verdict the oldest of the marks drawn anew is there [ms].
+    if (this.oldest === Infinity) return;
+    document.body.dataset.drawn = `${this.store.sequence[newest]} ${Math.round(Date.now() - this.begun - this.oldest)}`;
+    this.oldest = Infinity;
   }
 
   private drawStrip(): void {
@@ -195,17 +202,24 @@ class Page {
     toggle("Pause", (on) => this.pause(on));
     const factor = make("select", { id: "factor" });
     factor.setAttribute("aria-label", "Length of whiskers");
-    this.fillFactors(factor);
-    factor.addEventListener("change", () => { this.marks.factor = Number(factor.value); this.scene?.draw(); });
+    factor.append(...kFactors.map((step) => make("option", { value: String(step), textContent: step === 0 ? "no whiskers" : `whiskers × ${step}` })));
+    factor.addEventListener("change", () => this.setFactor(Number(factor.value), true));
     byId("flow").append(factor, make("span", { id: "flow-note" }));
   }
 
-  // Whiskers of a third of a millimetre are a small part of the blade.
-  private fillFactors(factor: HTMLSelectElement): void {
-    const fitting = (kWhiskers * this.design.half_diagonal) / 0.3;
-    const steps = [0, 1, 10, 20, 50, 100, 200, 500, 1000];
-    this.marks.factor = steps.reduce((best, step) => (Math.abs(Math.log(step / fitting)) < Math.abs(Math.log(best / fitting)) ? step : best), 1);
-    factor.append(...steps.map((step) => make("option", { value: String(step), textContent: step === 0 ? "no whiskers" : `whiskers × ${step}`, selected: step === this.marks.factor })));
+  // Until somebody chooses, a whisker as long as the tolerance is a small part of the blade.
+  private fitFactor(state: State): void {
+    const fitting = (kWhiskers * this.design.half_diagonal) / (state.tolerance.edge ?? state.tolerance.rest ?? 0.3);
+    const off = (step: number): number => Math.abs(Math.log(step / fitting));
+    this.setFactor(kFactors.slice(1).reduce((best, step) => (off(step) < off(best) ? step : best)), false);
+  }
+
+  private setFactor(factor: number, chosen: boolean): void {
+    if (factor === this.marks.factor && !chosen) return;
+    this.chosen ||= chosen;
+    this.marks.factor = factor;
+    byId<HTMLSelectElement>("factor").value = String(factor);
+    this.scene?.draw();
   }
 
   private pause(on: boolean): void {
@@ -220,14 +234,15 @@ class Page {
   }
 
   private addLegend(): void {
-    const rows = kLooks.slice(0, 5).map((look) => {
+    const scale = make("span", { className: "scale", textContent: "within −tolerance … 0 … +tolerance" });
+    const rows = kLooks.slice(1, 5).map((look) => {
       const sign = make("span", { textContent: kSigns[look], className: "sign" });
       sign.style.color = kColours[look];
       return make("span", {}, [sign, ` ${kLookWords[look]}`]);
     });
     const zone = make("span", { textContent: "■", className: "sign" });
     zone.style.color = kColours.zone;
-    byId("legend").append(...rows, make("span", {}, [zone, " leading-edge zone"]));
+    byId("legend").append(scale, ...rows, make("span", {}, [zone, " leading-edge zone"]));
   }
 }
 

@@ -1,26 +1,24 @@
 // Points and their whiskers, drawn from the arrays of the store. A whisker runs along the normal, so many times as long as
-// the distance is.
+// the distance is; into the blade it is seen all the same, where its point is.
 import { BufferAttribute, BufferGeometry, Camera, Color, DynamicDrawUsage, Group, LineSegments, Points, ShaderMaterial, Vector3 } from "three";
-import { kColours, kLooks, lookOf } from "./looks";
+import { kColours, kLooks, kWithin, lookOf } from "./looks";
 import type { Store } from "./store";
 
 const kPointSize = 6, kOutSize = 13; // [px]
 
-const colourTable = (): Color[] => kLooks.map((look) => new Color(kColours[look]));
-
-// What colour a look has: within tolerance the farther off the darker.
+// What colour a look has; within tolerance by the share of it that the distance takes.
 const kTint = `
   uniform vec3 colours[6];
+  uniform vec3 within[3];
   attribute float look;
   attribute float share;
   vec3 tint() {
-    vec3 colour = colours[int(look + 0.5)];
-    return look < 0.5 ? mix(vec3(0.78, 0.9, 0.86), colour, clamp(0.25 + 0.75 * share, 0.0, 1.0)) : colour;
+    if (look > 0.5) return colours[int(look + 0.5)];
+    return mix(within[1], share < 0.0 ? within[0] : within[2], min(abs(share), 1.0));
   }`;
 
 const kPointVertex = `
   ${kTint}
-  attribute vec3 normal;
   uniform float scale;
   uniform float lift;
   varying vec3 colour;
@@ -62,6 +60,7 @@ const kLineVertex = `
   void main() {
     colour = tint() * 0.85;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position + factor * offset, 1.0);
+    if ((normalMatrix * normal).z < 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
   }`;
 
 const kLineFragment = `
@@ -75,10 +74,13 @@ type Attributes = Record<string, BufferAttribute>;
 
 export class Marks {
   readonly group = new Group();
-  factor = 100;
-  private readonly uniforms = { colours: { value: colourTable() }, scale: { value: 1 }, lift: { value: 0 }, factor: { value: 100 } };
+  factor = 0;
+  private readonly uniforms = {
+    colours: { value: kLooks.map((look) => new Color(kColours[look])) }, within: { value: kWithin.map((colour) => new Color(colour)) },
+    scale: { value: 1 }, lift: { value: 0 }, factor: { value: 100 },
+  };
   private readonly dots = new Points(new BufferGeometry(), new ShaderMaterial({ uniforms: this.uniforms, vertexShader: kPointVertex, fragmentShader: kPointFragment }));
-  private readonly lines = new LineSegments(new BufferGeometry(), new ShaderMaterial({ uniforms: this.uniforms, vertexShader: kLineVertex, fragmentShader: kLineFragment }));
+  private readonly lines = new LineSegments(new BufferGeometry(), new ShaderMaterial({ uniforms: this.uniforms, vertexShader: kLineVertex, fragmentShader: kLineFragment, depthTest: false }));
   private dotData: Attributes = {};
   private lineData: Attributes = {};
   private room = 0;
@@ -117,7 +119,7 @@ export class Marks {
       return made;
     };
     this.dotData = make(this.dots.geometry, { position: 3, normal: 3, look: 1, share: 1 }, this.room);
-    this.lineData = make(this.lines.geometry, { position: 3, offset: 3, look: 1, share: 1 }, 2 * this.room);
+    this.lineData = make(this.lines.geometry, { position: 3, normal: 3, offset: 3, look: 1, share: 1 }, 2 * this.room);
   }
 
   private write(first: number, end: number): void {
@@ -126,7 +128,7 @@ export class Marks {
     dot.position.array.set(place.subarray(3 * first, 3 * end), 3 * first);
     dot.normal.array.set(normal.subarray(3 * first, 3 * end), 3 * first);
     for (let slot = first; slot < end; ++slot) {
-      const look = kLooks.indexOf(lookOf(kind[slot])), share = tolerance[slot] > 0 ? Math.abs(distance[slot]) / tolerance[slot] : 0.5;
+      const look = kLooks.indexOf(lookOf(kind[slot])), share = tolerance[slot] > 0 ? distance[slot] / tolerance[slot] : 0;
       dot.look.array[slot] = look;
       dot.share.array[slot] = share;
       for (let tip = 0; tip < 2; ++tip) {
@@ -135,6 +137,7 @@ export class Marks {
         line.share.array[row] = share;
         for (let k = 0; k < 3; ++k) {
           line.position.array[3 * row + k] = place[3 * slot + k];
+          line.normal.array[3 * row + k] = normal[3 * slot + k];
           line.offset.array[3 * row + k] = tip * distance[slot] * normal[3 * slot + k];
         }
       }

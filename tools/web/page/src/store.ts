@@ -20,7 +20,6 @@ export class Store {
   revision = new Uint32Array(kFirstRoom);
   time = new Float64Array(kFirstRoom); // [ms] since the host's feed began
   newest = -1; // slot
-  changes = 0; // +1 with every piece
   private readonly slots = new Map<number, number>();
   private dirty: Range = { first: 0, end: 0 };
 
@@ -34,7 +33,6 @@ export class Store {
     this.newest = -1;
     this.slots.clear();
     this.dirty = { first: 0, end: 0 };
-    ++this.changes;
   }
 
   slotOf(sequence: number): number { return this.slots.get(sequence) ?? -1; }
@@ -46,9 +44,14 @@ export class Store {
     return range;
   }
 
-  add(piece: Piece): void {
-    for (let at = 0; at + kColumns <= piece.rows.length; at += kColumns) this.addRow(piece.rows, at);
-    ++this.changes;
+  // Returns the time of the oldest verdict in it [ms].
+  add(piece: Piece): number {
+    let oldest = Infinity;
+    for (let at = 0; at + kColumns <= piece.rows.length; at += kColumns) {
+      this.addRow(piece.rows, at);
+      oldest = Math.min(oldest, piece.rows[at + 12]);
+    }
+    return oldest;
   }
 
   private addRow(rows: number[], at: number): void {
