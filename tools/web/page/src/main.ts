@@ -124,7 +124,7 @@ class Page {
   private beforeDrawing(): void {
     const ratio = this.scene!.pixelRatio, slot = this.slot();
     const newest = this.store.newest;
-    this.marks.update(ratio, this.design.half_diagonal);
+    this.marks.update(ratio, this.design.half_diagonal, this.scene!.hurried);
     this.picked.show(this.store.place, slot, ratio);
     this.newest.show(this.store.place, this.state?.ended ? -1 : newest, ratio);
     // How long after its verdict the oldest of the marks drawn anew is there [ms].

@@ -5,6 +5,7 @@ import { kColours, kLooks, kWithin, lookOf } from "./looks";
 import type { Store } from "./store";
 
 const kPointSize = 6, kOutSize = 13; // [px]
+const kFewPoints = 4000; // within tolerance, where drawing takes long
 
 // What colour a look has; within tolerance by the share of it that the distance takes.
 const kTint = `
@@ -93,7 +94,7 @@ export class Marks {
   }
 
   // Takes over what changed, and what is to be drawn how.
-  update(pixelRatio: number, halfDiagonal: number): void {
+  update(pixelRatio: number, halfDiagonal: number, few: boolean): void {
     this.uniforms.scale.value = pixelRatio;
     this.uniforms.lift.value = 0.001 * halfDiagonal;
     this.uniforms.factor.value = this.factor;
@@ -103,8 +104,19 @@ export class Marks {
       [first, end] = [0, this.store.count];
     }
     if (end > first) this.write(first, end);
-    this.dots.geometry.setDrawRange(0, this.store.count);
+    const thin = few && this.store.count > kFewPoints;
+    if (thin && this.dots.geometry.index === null) this.dots.geometry.setIndex(this.fewOf());
+    if (!thin) this.dots.geometry.setIndex(null);
+    this.lines.visible = !thin && this.factor > 0;
+    this.dots.geometry.setDrawRange(0, thin ? Infinity : this.store.count);
     this.lines.geometry.setDrawRange(0, 2 * this.store.count);
+  }
+
+  // All points that are not within tolerance, and some of the others.
+  private fewOf(): BufferAttribute {
+    const step = Math.ceil(this.store.count / kFewPoints), slots: number[] = [];
+    for (let slot = 0; slot < this.store.count; ++slot) if (slot % step === 0 || lookOf(this.store.kind[slot]) !== "in") slots.push(slot);
+    return new BufferAttribute(new Uint32Array(slots), 1);
   }
 
   private makeRoom(): void {

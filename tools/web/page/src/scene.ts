@@ -5,7 +5,15 @@ import type { BladeFrame } from "./frame";
 
 export type ViewName = "pressure" | "suction" | "edge";
 
-const kTurn_ms = 350;
+const kTurn_ms = 350, kRest_ms = 60;
+
+// Without a graphics card the processor draws: then less is drawn while the blade is turned.
+function drawnByProcessor(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2"), names = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = names ? String(gl?.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
 
 export class BladeScene {
   readonly scene = new Scene();
@@ -18,10 +26,14 @@ export class BladeScene {
   private reach = 1; // half of what is seen [mm]
   private frame: BladeFrame | null = null;
   private wanted = false;
+  private drawn = 0; // when [ms]
+  private held = false; // a mouse or a finger turns the blade
+  private readonly byProcessor: boolean;
   private turn: { from: Vector3; to: Vector3; begun: number } | null = null;
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "low-power" });
+    this.byProcessor = drawnByProcessor();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.byProcessor });
     this.scene.background = new Color("#eef2f5");
     this.scene.add(new HemisphereLight(0xffffff, 0x8899a6, 1.6), this.camera);
     this.camera.add(this.light);
@@ -30,7 +42,8 @@ export class BladeScene {
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.draw());
-    this.controls.addEventListener("start", () => { this.turn = null; });
+    this.controls.addEventListener("start", () => { this.turn = null; this.held = true; });
+    this.controls.addEventListener("end", () => { this.held = false; this.draw(); });
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
 
@@ -71,13 +84,20 @@ export class BladeScene {
   draw(): void {
     if (this.wanted) return;
     this.wanted = true;
-    requestAnimationFrame(() => {
+    // The processor has other things to do than to draw what has hardly changed.
+    const wait = this.byProcessor && !this.hurried ? kRest_ms - (performance.now() - this.drawn) : 0;
+    const drawNext = (): void => void requestAnimationFrame(() => {
       this.wanted = false;
+      this.drawn = performance.now();
       this.step();
       this.onDraw();
       this.renderer.render(this.scene, this.camera);
     });
+    if (wait > 0) setTimeout(drawNext, wait); else drawNext();
   }
+
+  // Whether the next drawing is one of many, and each takes long.
+  get hurried(): boolean { return this.byProcessor && (this.held || this.turn !== null); }
 
   get pixelRatio(): number { return this.renderer.getPixelRatio(); }
 
@@ -96,7 +116,7 @@ export class BladeScene {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.byProcessor ? 1 : 2));
     this.renderer.setSize(width, height, false);
     const wide = Math.max(width / height, 1), high = Math.max(height / width, 1), reach = 0.78 * this.reach;
     Object.assign(this.camera, { left: -reach * wide, right: reach * wide, top: reach * high, bottom: -reach * high });

@@ -20,6 +20,7 @@ export class Store {
   revision = new Uint32Array(kFirstRoom);
   time = new Float64Array(kFirstRoom); // [ms] since the host's feed began
   newest = -1; // slot
+  version = 0; // +1 with every piece
   private readonly slots = new Map<number, number>();
   private dirty: Range = { first: 0, end: 0 };
 
@@ -32,6 +33,7 @@ export class Store {
     this.count = 0;
     this.newest = -1;
     this.slots.clear();
+    ++this.version;
     this.dirty = { first: 0, end: 0 };
   }
 
@@ -47,6 +49,7 @@ export class Store {
   // Returns the time of the oldest verdict in it [ms].
   add(piece: Piece): number {
     let oldest = Infinity;
+    ++this.version;
     for (let at = 0; at + kColumns <= piece.rows.length; at += kColumns) {
       this.addRow(piece.rows, at);
       oldest = Math.min(oldest, piece.rows[at + 12]);

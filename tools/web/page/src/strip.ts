@@ -10,7 +10,7 @@ const kMostTolerances = 6; // beyond it points stand at the border
 
 const kSizes: Record<Look, number> = { in: 2, cut: 5, weld: 5, undecided: 4, pending: 3, rejected: 3 };
 
-function shapeInto(path: Path2D, look: Look, x: number, y: number, size: number): void {
+function shapeInto(path: CanvasRenderingContext2D, look: Look, x: number, y: number, size: number): void {
   if (look === "cut" || look === "weld") {
     const up = look === "cut" ? -1 : 1;
     path.moveTo(x, y + up * size);
@@ -23,10 +23,7 @@ function shapeInto(path: Path2D, look: Look, x: number, y: number, size: number)
     path.lineTo(x, y + size);
     path.lineTo(x - size, y);
     path.closePath();
-  } else if (look === "in") {
-    path.rect(x - size / 2, y - size / 2, size, size);
   } else {
-    path.moveTo(x + size, y);
     path.arc(x, y, size, 0, 2 * Math.PI);
   }
 }
@@ -36,6 +33,7 @@ export class Strip {
   private readonly chart: uPlot;
   private state: State | null = null;
   private selected = -1;
+  private drawn = "";
   private reach = 1; // of the distances shown [mm]
   private edges: [number, number] = [0, 1]; // r/R
 
@@ -58,6 +56,10 @@ export class Strip {
   }
 
   update(state: State | null, selected: number): void {
+    // What would look the same is not drawn again.
+    const look = JSON.stringify([this.store.version, selected, state?.tolerance.edge, state?.blade.edge, state?.blade.edge_tip]);
+    if (look === this.drawn) return;
+    this.drawn = look;
     this.state = state;
     this.selected = selected;
     if (state && state.blade.tip > 0 && state.blade.edge_tip > state.blade.edge_root)
@@ -98,15 +100,7 @@ export class Strip {
     }
     ctx.setLineDash([]);
     this.drawCells(chart, scale);
-    const paths = new Map(kLooks.map((look) => [look, new Path2D()]));
-    for (const slot of this.store.edge()) {
-      const look = lookOf(this.store.kind[slot]);
-      shapeInto(paths.get(look)!, look, ...this.placeOf(slot), kSizes[look] * scale);
-    }
-    for (const [look, path] of paths) {
-      ctx.fillStyle = ctx.strokeStyle = kColours[look];
-      if (look === "pending" || look === "rejected") ctx.stroke(path); else ctx.fill(path);
-    }
+    this.drawShapes(ctx, bbox.left + bbox.width, scale);
     if (this.selected >= 0 && this.selected < this.store.count) {
       const ring = new Path2D(), [x, y] = this.placeOf(this.selected);
       ring.arc(x, y, 9 * scale, 0, 2 * Math.PI);
@@ -115,6 +109,32 @@ export class Strip {
       ctx.stroke(ring);
     }
     ctx.restore();
+  }
+
+  // Those within tolerance below the others. What falls upon a place that has the same shape already is not drawn: there
+  // may be tens of thousands.
+  private drawShapes(ctx: CanvasRenderingContext2D, width: number, scale: number): void {
+    const places = new Map<Look, Set<number>>(kLooks.map((look) => [look, new Set()]));
+    const across = Math.ceil(width);
+    for (const slot of this.store.edge()) {
+      const [x, y] = this.placeOf(slot);
+      places.get(lookOf(this.store.kind[slot]))!.add(Math.round(y) * across + Math.round(x));
+    }
+    for (const [look, taken] of places) {
+      ctx.fillStyle = ctx.strokeStyle = kColours[look];
+      ctx.lineWidth = scale;
+      const size = kSizes[look] * scale;
+      for (const at of taken) {
+        const x = at % across, y = Math.floor(at / across);
+        if (look === "in") {
+          ctx.fillRect(x - size / 2, y - size / 2, size, size);
+          continue;
+        }
+        ctx.beginPath();
+        shapeInto(ctx, look, x, y, size);
+        if (look === "pending" || look === "rejected") ctx.stroke(); else ctx.fill();
+      }
+    }
   }
 
   // Where a point stands on the canvas; one beyond the limits at the border.
