@@ -3,6 +3,7 @@
 # build/web-shots. Not part of tests/run.sh: Chromium is large, and a run takes minutes.
 #   tests/web/run.sh [NAME]     all tests, or those whose name matches
 #   tests/web/run.sh picture    the picture of the README
+#   tests/web/run.sh watchers   what a session loses while ten browsers watch
 # Closes with one line: "bladefit: N passed, N failed".
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
@@ -24,7 +25,7 @@ cmp -s "$folder/package-lock.json" "$folder/node_modules/.bladefit-lock" || {
   cp "$folder/package-lock.json" "$folder/node_modules/.bladefit-lock"
 }
 
-if [[ ${1:-} == picture ]]; then exec node "$folder/picture.mjs"; fi
+if [[ ${1:-} == picture || ${1:-} == watchers ]]; then exec node "$folder/$1.mjs"; fi
 log=build/web-tests.log
 node --test --test-reporter=tap ${1:+--test-name-pattern="$1"} "$folder/page_test.mjs" | tee "$log" || true
 passed=$(sed -n 's/^# pass //p' "$log") failed=$(sed -n 's/^# fail //p' "$log")

@@ -28,17 +28,19 @@ export function design() {
   return compiled;
 }
 
-// The recorded points with excess material from one of them on, so many of them; counted from 1.
-export function pointsWithDefect(first, count, depth) {
-  const path = join(folder, `points-${first}.csv`);
+// The recorded points with defects, each from a point on (counted from 1), so many points long; depth > 0: excess material.
+export function pointsWithDefects(defects) {
+  const path = join(folder, "points.csv");
   const lines = readFileSync(kPoints, "utf8").trimEnd().split("\n").map((line, n) => {
-    const cells = line.split(",");
-    if (n < first || n >= first + count) return line;
-    return [...[0, 1, 2].map((k) => (Number(cells[k]) - depth * Number(cells[k + 3])).toFixed(6)), ...cells.slice(3)].join(",");
+    const cells = line.split(","), defect = defects.find(([first, count]) => n >= first && n < first + count);
+    if (!defect) return line;
+    return [...[0, 1, 2].map((k) => (Number(cells[k]) - defect[2] * Number(cells[k + 3])).toFixed(6)), ...cells.slice(3)].join(",");
   });
   writeFileSync(path, `${lines.join("\n")}\n`);
   return path;
 }
+
+export const pointsWithDefect = (first, count, depth) => pointsWithDefects([[first, count, depth]]);
 
 // A grid all over the blade, in another pose.
 export function gridPoints(grid) {
@@ -88,4 +90,3 @@ export async function session(name, source, { port = 0, linger = 600, words = []
 }
 
 export const kSource = (port) => `modbus-tcp://127.0.0.1:${port}`;
-export const kRecording = kPoints;

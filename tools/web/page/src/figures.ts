@@ -11,7 +11,8 @@ const kFitWords = (state: State): string => {
 function linkOf(state: State): string {
   if (state.link_down_s > 0 || state.alarms & 4) return `lost for ${duration(state.link_down_s)}`;
   if (state.ended) return "session ended";
-  return state.session === "idle" ? "paused: no points are taken" : state.session;
+  if (state.session === "idle") return "paused: no points are taken";
+  return state.session === "connecting" ? "connecting" : "there";
 }
 
 function nextOf(state: State): string | null {

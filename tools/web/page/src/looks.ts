@@ -18,6 +18,10 @@ export const kLookWords: Record<Look, string> = {
   pending: "waits for the fit", rejected: "left out",
 };
 
+export const kShortWords: Record<Look, string> = {
+  in: "in", cut: "CUT", weld: "WELD", undecided: "undecided", pending: "waits", rejected: "left out",
+};
+
 export const kLooks: Look[] = ["in", "cut", "weld", "undecided", "pending", "rejected"];
 
 export function lookOf(kind: number): Look {

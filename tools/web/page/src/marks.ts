@@ -4,7 +4,8 @@ import { BufferAttribute, BufferGeometry, Camera, Color, DynamicDrawUsage, Group
 import { kColours, kLooks, kWithin, lookOf } from "./looks";
 import type { Store } from "./store";
 
-const kPointSize = 6, kOutSize = 13; // [px]
+const kPointSize = 6, kLeastSize = 3, kOutSize = 13; // [px]
+const kSparse = 6000; // points; more are drawn smaller
 const kFewPoints = 4000; // within tolerance, where drawing takes long
 
 // What colour a look has; within tolerance by the share of it that the distance takes.
@@ -20,15 +21,14 @@ const kTint = `
 
 const kPointVertex = `
   ${kTint}
-  uniform float scale;
-  uniform float lift;
+  uniform float scale, size, lift;
   varying vec3 colour;
   varying float shape;
   void main() {
     shape = look;
     colour = tint();
     bool big = look > 0.5 && look < 3.5;
-    gl_PointSize = scale * (big ? ${kOutSize.toFixed(1)} : ${kPointSize.toFixed(1)});
+    gl_PointSize = scale * (big ? ${kOutSize.toFixed(1)} : size);
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position + lift * normal, 1.0);
     if (big) gl_Position.z -= 0.002 * gl_Position.w;
   }`;
@@ -78,7 +78,7 @@ export class Marks {
   factor = 0;
   private readonly uniforms = {
     colours: { value: kLooks.map((look) => new Color(kColours[look])) }, within: { value: kWithin.map((colour) => new Color(colour)) },
-    scale: { value: 1 }, lift: { value: 0 }, factor: { value: 100 },
+    scale: { value: 1 }, size: { value: kPointSize }, lift: { value: 0 }, factor: { value: 100 },
   };
   private readonly dots = new Points(new BufferGeometry(), new ShaderMaterial({ uniforms: this.uniforms, vertexShader: kPointVertex, fragmentShader: kPointFragment }));
   private readonly lines = new LineSegments(new BufferGeometry(), new ShaderMaterial({ uniforms: this.uniforms, vertexShader: kLineVertex, fragmentShader: kLineFragment, depthTest: false }));
@@ -96,6 +96,7 @@ export class Marks {
   // Takes over what changed, and what is to be drawn how.
   update(pixelRatio: number, halfDiagonal: number, few: boolean): void {
     this.uniforms.scale.value = pixelRatio;
+    this.uniforms.size.value = Math.max(kLeastSize, kPointSize * Math.min(1, Math.sqrt(kSparse / Math.max(this.store.count, 1))));
     this.uniforms.lift.value = 0.001 * halfDiagonal;
     this.uniforms.factor.value = this.factor;
     let { first, end } = this.store.takeDirty();

@@ -66,7 +66,7 @@ export class Strip {
       this.edges = [state.blade.edge_root / state.blade.tip - 0.01, Math.max(state.blade.edge_tip / state.blade.tip, 1) + 0.01];
     const tolerance = state?.tolerance.edge ?? 0;
     let most = 1.6 * tolerance;
-    for (const slot of this.store.edge()) most = Math.max(most, 1.1 * Math.abs(this.store.distance[slot]));
+    for (const slot of this.store.edge()) most = Math.max(most, 1.25 * Math.abs(this.store.distance[slot]));
     this.reach = tolerance > 0 ? Math.min(most, kMostTolerances * tolerance) : most || 1;
     this.chart.redraw(true, true);
   }

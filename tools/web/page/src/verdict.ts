@@ -1,32 +1,36 @@
 // What is read from two metres away: the verdict, why, what to do, the worst place; and below it whatever is wrong.
 import { byId, make, say } from "./dom";
+import { kSigns } from "./looks";
 import { kAlarm, kReasonPointsMissing, type State } from "./types";
 import { duration, mm, signedMm } from "./words";
 
-const kSigns: Record<string, string> = { in_tolerance: "✓", out_of_tolerance: "✕", not_decided: "?", not_judged: "–" };
+const kVerdictSigns: Record<string, string> = { in_tolerance: "✓", out_of_tolerance: "✕", not_decided: "?", not_judged: "–" };
 
-function tell(list: HTMLElement, rows: [string, string][]): void {
-  const text = JSON.stringify(rows);
-  if (list.dataset.rows === text) return;
-  list.dataset.rows = text;
-  list.replaceChildren(...rows.map(([name, value]) => make("div", {}, [make("dt", { textContent: name }), make("dd", { textContent: value })])));
+// The worst place of a region; marked where it is beyond its tolerance.
+function worstOf(name: string, sequence: number, distance: number | null, tolerance: number | null): HTMLElement {
+  const known = sequence > 0 && distance !== null, out = known && tolerance !== null && Math.abs(distance) > tolerance;
+  const sign = out ? `${distance > 0 ? kSigns.cut : kSigns.weld} ` : "";
+  return make("div", { className: out ? "out" : "" }, [make("dt", { textContent: name }), make("dd", { textContent: known ? sign + signedMm(distance) : "–" })]);
+}
+
+function showWorst(state: State): void {
+  const list = byId("worst"), { worst, tolerance } = state, text = JSON.stringify([worst, tolerance]);
+  if (list.dataset.shown === text) return;
+  list.dataset.shown = text;
+  list.replaceChildren(worstOf("Worst at the leading edge", worst.edge_sequence, worst.edge, tolerance.edge), worstOf("Worst of the rest", worst.rest_sequence, worst.rest, tolerance.rest));
 }
 
 export function showVerdict(state: State): void {
   const header = byId("verdict");
   header.dataset.verdict = state.verdict;
-  say(header.querySelector<HTMLElement>(".sign")!, kSigns[state.verdict] ?? "?");
+  say(header.querySelector<HTMLElement>(".sign")!, kVerdictSigns[state.verdict] ?? "?");
   const [word, ...why] = state.words.verdict.split(": ");
   say(byId("verdict-word"), word);
   const reasons = why.join(": ");
   say(byId("verdict-why"), [reasons, state.ended ? "the session has ended: this is its result" : ""].filter(Boolean).join("; "));
   say(byId("verdict-advice"), state.words.advice ? `To do: ${state.words.advice}` : "");
-  const { worst } = state;
-  tell(byId("worst"), [
-    ["Worst at the leading edge", worst.edge_sequence ? signedMm(worst.edge) : "–"],
-    ["Worst of the rest", worst.rest_sequence ? signedMm(worst.rest) : "–"],
-  ]);
-  document.title = `${kSigns[state.verdict] ?? "?"} ${word} · bladefit`;
+  showWorst(state);
+  document.title = `${kVerdictSigns[state.verdict] ?? "?"} ${word} · bladefit`;
 }
 
 // The reasons to worry, each with what to do.
