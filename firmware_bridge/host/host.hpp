@@ -19,7 +19,7 @@ struct HostSettings {
   /// Made when it is missing, and removed again when nothing was put into it. A session in it is resumed.
   std::string session_directory;
   PanelServerSettings panel;
-  bool feed = false;          ///< whether points and verdicts are kept for those who draw them
+  bool feed = false;         ///< whether points and verdicts are kept for those who draw them
   ShaftAxis axis;            ///< from which the panel's radii are
   double tip_radius_mm = 0;  ///< R of r/R; 0 = the greatest radius of places all over the design
   std::string source_name;   ///< where the points come from, for the panel

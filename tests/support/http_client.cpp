@@ -71,8 +71,8 @@ HttpAnswer http_ask(std::uint16_t port, const std::string& method, const std::st
                     const std::string& headers, const std::string& host) {
   HttpConnection connection(port);
   const std::string name = host.empty() ? "127.0.0.1:" + std::to_string(port) : host;
-  connection.send(method + " " + path + " HTTP/1.1\r\nHost: " + name + "\r\nContent-Length: " +
-                  std::to_string(body.size()) + "\r\n" + headers + "\r\n" + body);
+  connection.send(method + " " + path + " HTTP/1.1\r\nHost: " + name +
+                  "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n" + headers + "\r\n" + body);
   const std::string text = connection.receive("", kPatienceForAnswer);
   const std::size_t end = text.find("\r\n\r\n");
   HttpAnswer answer;

@@ -118,6 +118,24 @@ test("a lost host is said at once, and one that comes again is followed", async 
   await waitForPoints(page, count + 50);
 });
 
+test("a pause keeps the points that are shown, and no more", async (t) => {
+  const cmm = await machine(pointsWithDefect(kDefect, 6, 0.31), 100);
+  t.after(() => cmm.stop());
+  const host = await session("pause", kSource(cmm.port));
+  t.after(() => host.stop());
+  const { page } = await openPage(browser, host.address);
+  t.after(() => page.close());
+  await waitForPoints(page, 50);
+  const pause = page.getByRole("button", { name: "Pause", exact: true });
+  await pause.click();
+  const count = await pointsShown(page);
+  await page.waitForFunction(() => /[1-9]\d* changes wait/.test(document.querySelector("#flow-note").textContent), null, { timeout: 10000 });
+  assert.equal(await pointsShown(page), count);
+  await pause.click();
+  await waitForPoints(page, count + 20);
+  assert.equal(await text(page, "flow-note"), "");
+});
+
 test("commands want the token", async (t) => {
   const cmm = await machine(pointsWithDefect(kDefect, 6, 0.31), 50);
   t.after(() => cmm.stop());

@@ -27,6 +27,7 @@
 #include "tools/results/operator_summary.hpp"
 #include "tools/results/session_files.hpp"
 #include "tools/web/design_json.hpp"
+#include "tools/web/web_access.hpp"
 #include "tools/web/web_panel.hpp"
 
 namespace bladefit {
@@ -76,6 +77,10 @@ void open_web(const RunPlan& plan, Host& host, WebPanel& web) {
                    .design = design_json(Surface(plan.image), plan.host.localizer.tolerance, plan.host.axis,
                                          plan.host.tip_radius_mm, plan.host.session_directory)};
   if (const Failure failure = web.open(*plan.web, std::move(source))) throw ToolError(failure);
+  if (!is_loopback(plan.web->host)) {
+    tell(fmt::format("{}: other machines can reach this page, and nothing is encrypted; panel.allow limits who may ask",
+                     web.address()));
+  }
 }
 
 /// ", web panel at http://127.0.0.1:8080/"; empty where there is none.

@@ -93,14 +93,15 @@ std::string read_token(const std::string& path) {
   std::ifstream file(path);
   std::string token;
   if (!std::getline(file, token)) {
-    throw ToolError(fmt::format("panel.http_token_file {}: cannot be read; write a token of {} characters or more there",
-                                path, kShortestToken));
+    throw ToolError(
+        fmt::format("panel.http_token_file {}: cannot be read; write a token of {} characters or more there", path,
+                    kShortestToken));
   }
   if (token.ends_with('\r')) token.pop_back();
   if (token.size() < kShortestToken || token.find_first_of(" \t") != std::string::npos) {
-    throw ToolError(fmt::format(
-        "panel.http_token_file {}: its first line must be a token of {} characters or more without blanks", path,
-        kShortestToken));
+    throw ToolError(
+        fmt::format("panel.http_token_file {}: its first line must be a token of {} characters or more without blanks",
+                    path, kShortestToken));
   }
   return token;
 }
@@ -114,6 +115,7 @@ std::optional<WebSettings> plan_web(const PanelSettings& file, const std::string
     throw ToolError(fmt::format("{} {}: is no address; use HOST:PORT, for example 127.0.0.1:8080",
                                 flag.empty() ? "panel.http" : "--http", address));
   }
+  if (file.allow) web.allow = *file.allow;
   if (file.http_token_file) web.token = read_token(*file.http_token_file);
   return web;
 }

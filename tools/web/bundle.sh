@@ -17,7 +17,8 @@ cd "$folder"
 
 build() {
   if ! cmp -s package-lock.json node_modules/.bladefit-lock; then
-    npm ci --omit=dev --ignore-scripts --no-audit --no-fund --fetch-retries=1 --loglevel=error
+    npm ci --omit=dev --ignore-scripts --no-audit --no-fund --loglevel=error \
+      --fetch-retries=1 --fetch-retry-mintimeout=1000
     cp package-lock.json node_modules/.bladefit-lock
   fi
   "$node" node_modules/vite/bin/vite.js build --logLevel warn

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <string_view>
 
 namespace bladefit {
 namespace {
@@ -25,7 +26,9 @@ void name_socket(int descriptor, NameOf name_of, std::string& ip, int& port) {
   if (name_of(descriptor, plain, &size) != 0) return;
   const int flags = NI_NUMERICHOST | NI_NUMERICSERV;
   if (getnameinfo(plain, size, host.data(), host.size(), service.data(), service.size(), flags) != 0) return;
-  ip = host.data();
+  constexpr std::string_view kMapped = "::ffff:";
+  const std::string_view name = host.data();
+  ip = name.starts_with(kMapped) ? name.substr(kMapped.size()) : name;
   std::from_chars(service.data(), service.data() + std::strlen(service.data()), port);
 }
 
@@ -48,13 +51,12 @@ ClientStream::~ClientStream() {
   close(descriptor_);
 }
 
-bool ClientStream::is_readable() const {
-  return used_ < filled_ || is_ready(descriptor_, POLLIN, deadline_);
-}
+bool ClientStream::is_readable() const { return used_ < filled_ || is_ready(descriptor_, POLLIN, deadline_); }
 
 bool ClientStream::is_writable() const {
-  pollfd watched{descriptor_, POLLOUT | POLLRDHUP, 0};
-  return poll(&watched, 1, 0) > 0 && (watched.revents & (POLLRDHUP | POLLHUP | POLLERR)) == 0;
+  // One that is slow is waited for by write().
+  pollfd watched{descriptor_, POLLRDHUP, 0};
+  return poll(&watched, 1, 0) == 0;
 }
 
 ssize_t ClientStream::read(char* to, std::size_t size) {

@@ -1,5 +1,7 @@
 #pragma once
 #include <httplib.h>
+// Its header brings a macro of this name, which is a word of Eigen's.
+#undef _res
 
 #include <array>
 #include <chrono>

@@ -45,9 +45,9 @@ LiveFrames::Points LiveFrames::make_points(const FeedPlace& from) {
   Points made{.text = nullptr, .next = piece.next, .more = piece.more};
   if (piece.count == 0 && !piece.afresh) return made;
   const FeedPlace& next = piece.next;
-  made.text = std::make_shared<const std::string>(
-      fmt::format("id: {}-{}-{}-{}\nevent: points\ndata: {}\n\n", run_, next.cleared, next.slot, next.change,
-                  piece_json(piece, std::span(room_).first(piece.count))));
+  made.text = std::make_shared<const std::string>(fmt::format("id: {}-{}-{}-{}\nevent: points\ndata: {}\n\n", run_,
+                                                              next.cleared, next.slot, next.change,
+                                                              piece_json(piece, std::span(room_).first(piece.count))));
   return made;
 }
 
@@ -82,7 +82,8 @@ FeedPlace LiveFrames::place_of(const std::string& id) const {
   std::string_view rest = id;
   if (!rest.starts_with(run_)) return {};
   rest.remove_prefix(run_.size());
-  const bool good = take_number(rest, place.cleared) && take_number(rest, place.slot) && take_number(rest, place.change);
+  const bool good =
+      take_number(rest, place.cleared) && take_number(rest, place.slot) && take_number(rest, place.change);
   return good && rest.empty() ? place : FeedPlace{};
 }
 

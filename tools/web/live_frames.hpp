@@ -17,8 +17,8 @@ using SharedText = std::shared_ptr<const std::string>;
 /// once: what the host is asked does not grow with their number. Any thread.
 class LiveFrames {
  public:
-  static constexpr std::chrono::milliseconds kTick{30};     ///< clients look for news so often, all at once
-  static constexpr std::chrono::milliseconds kState{100};   ///< the state is made so often at the most
+  static constexpr std::chrono::milliseconds kTick{30};    ///< clients look for news so often, all at once
+  static constexpr std::chrono::milliseconds kState{100};  ///< the state is made so often at the most
 
   LiveFrames(const WebSource& source, bool commands);
 

@@ -27,16 +27,11 @@ Json numbers(std::span<const float> values) {
 Json number(float value) { return number(static_cast<double>(value)); }
 
 Json defect_json(const BladeDefect& defect) {
-  return {{"sequence", defect.sequence},
-          {"from", number(defect.from_ratio)},
-          {"to", number(defect.to_ratio)},
-          {"length", number(defect.length)},
-          {"distance", number(defect.distance)},
-          {"side", side_word(defect.side)},
-          {"action", action_word(defect.action)},
-          {"region", region_word(defect.region)},
-          {"points", defect.points},
-          {"machine", numbers(defect.machine)}};
+  return {
+      {"sequence", defect.sequence},          {"from", number(defect.from_ratio)},    {"to", number(defect.to_ratio)},
+      {"length", number(defect.length)},      {"distance", number(defect.distance)},  {"side", side_word(defect.side)},
+      {"action", action_word(defect.action)}, {"region", region_word(defect.region)}, {"points", defect.points},
+      {"machine", numbers(defect.machine)}};
 }
 
 Json blade_json(const BladeView& blade) {
@@ -79,10 +74,14 @@ Json fit_json(const PanelState& state) {
 }
 
 Json counts_json(const PanelState& state) {
-  return {{"points", state.points},      {"planned", state.planned},
-          {"edge", state.leading_edge_points}, {"edge_out", state.leading_edge_out},
-          {"rest_out", state.rest_out},  {"rejected", state.rejected},
-          {"lost", state.lost},          {"last", state.last_sequence}};
+  return {{"points", state.points},
+          {"planned", state.planned},
+          {"edge", state.leading_edge_points},
+          {"edge_out", state.leading_edge_out},
+          {"rest_out", state.rest_out},
+          {"rejected", state.rejected},
+          {"lost", state.lost},
+          {"last", state.last_sequence}};
 }
 
 }  // namespace

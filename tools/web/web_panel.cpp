@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <charconv>
@@ -77,7 +78,10 @@ std::uint32_t number_of(const httplib::Request& request, const char* name) {
 /// The server of the library, what it answers from, and who watches.
 struct WebPanel::Server {
   Server(WebSettings wanted, WebSource shown)
-      : settings(std::move(wanted)), source(std::move(shown)), guard(settings.token), frames(source, guard.has_token()) {}
+      : settings(std::move(wanted)),
+        source(std::move(shown)),
+        guard(settings.token),
+        frames(source, guard.has_token()) {}
   ~Server();
 
   [[nodiscard]] Failure listen();
@@ -115,13 +119,13 @@ Failure WebPanel::Server::listen() {
   http.set_default_headers(safe_headers());
   add_answers();
   errno = 0;
-  const int bound = settings.port == 0 ? http.bind_to_any_port(settings.host)
+  const int bound = settings.port == 0                                ? http.bind_to_any_port(settings.host)
                     : http.bind_to_port(settings.host, settings.port) ? settings.port
                                                                       : -1;
   if (bound <= 0) {
-    return device_failure(fmt::format(
-        "--http {}:{}: cannot listen there ({}); choose another address or port, port 0 takes any free one",
-        settings.host, settings.port, errno != 0 ? std::strerror(errno) : "no such address here"));
+    return device_failure(
+        fmt::format("--http {}:{}: cannot listen there ({}); choose another address or port, port 0 takes any free one",
+                    settings.host, settings.port, errno != 0 ? std::strerror(errno) : "no such address here"));
   }
   port = static_cast<std::uint16_t>(bound);
   thread = std::thread([this] { http.listen_after_bind(); });
@@ -157,10 +161,13 @@ bool WebPanel::Server::refuse(const httplib::Request& request, httplib::Response
     answer_text(response, kUriTooLong, "the address is too long");
     return true;
   }
+  if (!settings.allow.empty() && std::ranges::find(settings.allow, request.remote_addr) == settings.allow.end()) {
+    answer_text(response, kForbidden, "your address is not among those that panel.allow names");
+    return true;
+  }
   const bool one_host = request.get_header_value_count("Host") == 1;
   if (one_host && is_own_host(request.get_header_value("Host"), settings.host, port)) return false;
-  answer_text(response, kMisdirected,
-              "this host answers only by its own numeric address, or as localhost");
+  answer_text(response, kMisdirected, "this host answers only by its own numeric address, or as localhost");
   return true;
 }
 
@@ -179,7 +186,8 @@ void WebPanel::Server::watch(const httplib::Request& request, httplib::Response&
     return answer_text(response, kUnavailable, fmt::format("{} pages watch already; close one", kWatchers));
   }
   const std::string last = request.get_header_value("Last-Event-ID");
-  const auto place = std::make_shared<FeedPlace>(frames.place_of(last.empty() ? request.get_param_value("from") : last));
+  const auto place =
+      std::make_shared<FeedPlace>(frames.place_of(last.empty() ? request.get_param_value("from") : last));
   const auto state = std::make_shared<std::uint64_t>(0);
   response.set_chunked_content_provider(
       "text/event-stream",
@@ -189,6 +197,7 @@ void WebPanel::Server::watch(const httplib::Request& request, httplib::Response&
 
 /// What is new since the client was told last, or nothing; then waits for the time to look again.
 bool WebPanel::Server::send_events(FeedPlace& place, std::uint64_t& state, httplib::DataSink& sink) {
+  if (!sink.is_writable()) return false;
   const auto send = [&sink](const std::string& text) { return sink.write(text.data(), text.size()); };
   if (state == 0 && !send(frames.hello())) return false;
   const LiveFrames::State shown = frames.state();
@@ -222,10 +231,8 @@ void WebPanel::Server::follow(const httplib::Request& request, httplib::Response
       return answer_text(response, kForbidden, "read only: no token is set, see http_token_file");
   }
   const std::string& name = request.body;
-  const PanelCommands commands{.start = name == "start",
-                               .stop = name == "stop",
-                               .reset = name == "reset",
-                               .acknowledge = name == "acknowledge"};
+  const PanelCommands commands{
+      .start = name == "start", .stop = name == "stop", .reset = name == "reset", .acknowledge = name == "acknowledge"};
   const bool any = commands.start || commands.stop || commands.reset || commands.acknowledge;
   if (!any && name != "check") return answer_text(response, kBadRequest, "no such command");
   if (any) source.press(commands);

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace bladefit {
 
@@ -9,7 +10,8 @@ namespace bladefit {
 struct WebSettings {
   std::string host = "127.0.0.1";
   std::uint16_t port = 8080;  ///< 0 = any free one
-  std::string token;          ///< who knows it may press; empty: nobody
+  std::string token;               ///< who knows it may press; empty: nobody
+  std::vector<std::string> allow;  ///< numeric addresses that may ask; empty: every one that reaches `host`
 };
 
 /// The least length of a token.

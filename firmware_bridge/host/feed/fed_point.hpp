@@ -22,9 +22,9 @@ struct FedVerdict {
 /// A point as it was judged last.
 struct FedPoint {
   FedVerdict verdict;
-  std::uint32_t slot = 0;          ///< the place that it has in the feed, and that another point may have later
-  std::array<float, 3> foot{};     ///< in the frame of the design [mm]
-  std::array<float, 3> normal{};   ///< outward unit vector there; zero where the point has no foot
+  std::uint32_t slot = 0;         ///< the place that it has in the feed, and that another point may have later
+  std::array<float, 3> foot{};    ///< in the frame of the design [mm]
+  std::array<float, 3> normal{};  ///< outward unit vector there; zero where the point has no foot
 };
 
 }  // namespace bladefit

@@ -35,8 +35,9 @@ bool looks_the_same(const FedVerdict& one, const FedVerdict& other) {
 PointFeed::PointFeed(std::size_t points, std::size_t verdicts)
     : capacity_(points),
       remembered_(verdicts),
-      begun_ms_(std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
-                    .count()) {
+      begun_ms_(
+          std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
+              .count()) {
   places_.reserve(points);
   slots_.reserve(points);
 }

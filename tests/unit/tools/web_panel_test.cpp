@@ -8,6 +8,7 @@
 
 #include "tests/support/http_client.hpp"
 #include "tests/support/panel_state.hpp"
+#include "tests/support/process.hpp"
 #include "tools/web/page_files.hpp"
 #include "tools/web/web_panel.hpp"
 
@@ -45,21 +46,21 @@ class WebPanelTest : public ::testing::Test {
     open(kTestToken);
   }
 
-  void open(const std::string& token) {
+  void open(const std::string& token, const std::vector<std::string>& allow = {}) {
     panel = std::make_unique<WebPanel>();
-    const Failure failure = panel->open({.host = "127.0.0.1", .port = 0, .token = token},
-                                        {.state =
-                                             [this] {
-                                               const std::lock_guard lock(mutex);
-                                               return state;
-                                             },
-                                         .feed = &feed,
-                                         .press =
-                                             [this](const PanelCommands& commands) {
-                                               const std::lock_guard lock(mutex);
-                                               pressed.push_back(commands);
-                                             },
-                                         .design = R"({"name":"made up"})"});
+    const Failure failure =
+        panel->open({.host = "127.0.0.1", .port = 0, .token = token, .allow = allow}, {.state =
+                                                                           [this] {
+                                                                             const std::lock_guard lock(mutex);
+                                                                             return state;
+                                                                           },
+                                                                       .feed = &feed,
+                                                                       .press =
+                                                                           [this](const PanelCommands& commands) {
+                                                                             const std::lock_guard lock(mutex);
+                                                                             pressed.push_back(commands);
+                                                                           },
+                                                                       .design = R"({"name":"made up"})"});
     ASSERT_FALSE(failure) << failure.message;
   }
 
@@ -68,7 +69,8 @@ class WebPanelTest : public ::testing::Test {
   /// A request for events that has been answered.
   [[nodiscard]] std::unique_ptr<HttpConnection> watcher(const std::string& from = "") const {
     auto connection = std::make_unique<HttpConnection>(port());
-    connection->send("GET /api/events?from=" + from + " HTTP/1.1\r\nHost: localhost:" + std::to_string(port()) + "\r\n\r\n");
+    connection->send("GET /api/events?from=" + from + " HTTP/1.1\r\nHost: localhost:" + std::to_string(port()) +
+                     "\r\n\r\n");
     return connection;
   }
 
@@ -139,7 +141,8 @@ TEST_F(WebPanelTest, RefusesAHostNameThatIsNotItsOwn) {
   EXPECT_EQ(http_ask(port(), "GET", "/api/state", "", "", "rebound.example" + colon).status, 421);
   EXPECT_EQ(http_ask(port(), "GET", "/api/state", "", "", "127.0.0.1:1").status, 421);
   EXPECT_EQ(http_ask(port(), "GET", "/api/state", "", "", "127.0.0.1").status, 421);
-  EXPECT_EQ(http_ask(port(), "POST", "/api/command", "stop", bearer(kTestToken), "rebound.example" + colon).status, 421);
+  EXPECT_EQ(http_ask(port(), "POST", "/api/command", "stop", bearer(kTestToken), "rebound.example" + colon).status,
+            421);
   EXPECT_TRUE(pressed.empty());
 }
 
@@ -165,6 +168,13 @@ TEST_F(WebPanelTest, WithoutATokenNothingCanBePressed) {
   EXPECT_EQ(http_ask(port(), "POST", "/api/command", "stop", bearer("")).status, 403);
   EXPECT_EQ(WebJson::parse(http_ask(port(), "GET", "/api/state").body).at("commands"), false);
   EXPECT_TRUE(pressed.empty());
+}
+
+TEST_F(WebPanelTest, AnswersAllowedAddressesOnly) {
+  open("", {"192.168.0.7"});
+  EXPECT_EQ(http_ask(port(), "GET", "/api/state").status, 403);
+  open("", {"192.168.0.7", "127.0.0.1"});
+  EXPECT_EQ(http_ask(port(), "GET", "/api/state").status, 200);
 }
 
 TEST_F(WebPanelTest, BoundsWhatAClientMaySend) {
@@ -197,10 +207,8 @@ TEST_F(WebPanelTest, WatchersHavePlacesAndTheNextOneIsRefused) {
   EXPECT_EQ(http_ask(port(), "GET", "/api/state").status, 200);
   watching.pop_back();
   // The place is free once it is seen that its owner has gone.
-  bool again = false;
-  for (int turn = 0; turn < 100 && !again; ++turn)
-    again = watcher()->receive("event: state", 200ms).find("event: state") != std::string::npos;
-  EXPECT_TRUE(again);
+  EXPECT_TRUE(hil::eventually(
+      [this] { return watcher()->receive("event: state", 1s).find("event: state") != std::string::npos; }));
 }
 
 TEST_F(WebPanelTest, EndsAtOnceWhileClientsWatch) {
@@ -214,8 +222,9 @@ TEST_F(WebPanelTest, EndsAtOnceWhileClientsWatch) {
 
 TEST_F(WebPanelTest, SaysInOneLineThatAPortIsInUse) {
   WebPanel second;
-  const Failure failure = second.open({.host = "127.0.0.1", .port = port(), .token = ""},
-                                      {.state = [] { return PanelState(); }, .feed = &feed, .press = {}, .design = "{}"});
+  const Failure failure =
+      second.open({.host = "127.0.0.1", .port = port(), .token = "", .allow = {}},
+                  {.state = [] { return PanelState(); }, .feed = &feed, .press = {}, .design = "{}"});
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure.kind, Failure::Kind::device);
   EXPECT_NE(failure.message.find("--http 127.0.0.1:" + std::to_string(port())), std::string::npos) << failure.message;

@@ -46,8 +46,8 @@ function figuresOf(state: State): Figure[] {
 }
 
 // Elements that are there already get their new text alone.
-export function showFigures(state: State): void {
-  const box = byId("figures"), figures = figuresOf(state);
+export function showFigures(state: State, session: string): void {
+  const box = byId("figures"), figures = [...figuresOf(state), ["Session", session, true] as Figure];
   if (box.childElementCount !== figures.length)
     box.replaceChildren(...figures.map(() => make("div", {}, [make("span", { className: "name" }), make("span", { className: "value" })])));
   figures.forEach(([name, value, wide], k) => {

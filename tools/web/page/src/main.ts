@@ -78,7 +78,7 @@ class Page {
     this.state = state;
     showVerdict(state);
     showTrouble(state, this.lostFor());
-    showFigures(state);
+    showFigures(state, this.design.name);
     showDefects(state, (sequence) => this.go(sequence));
     this.commands.show(state);
     if (!this.chosen) this.fitFactor(state);
