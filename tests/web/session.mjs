@@ -51,7 +51,7 @@ export function gridPoints(grid) {
 
 // Starts a process and waits for a line that matches; gives the match. What it writes goes to a file.
 function started(words, pattern) {
-  const child = spawn(kCommand, words, { stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(kCommand, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
   let said = "";
   const match = new Promise((done, failed) => {
     const hear = (chunk) => {
@@ -80,12 +80,12 @@ export async function machine(points, rate) {
 }
 
 // A session with a web panel: { address, stop }. `port` 0: any.
-export async function session(name, source, { port = 0, linger = 600, words = [] } = {}) {
+export async function session(name, source, { port = 0, linger = 600, words = ["--until-idle", "60"] } = {}) {
   const token = join(folder, "token.txt"), config = join(folder, `${name}.toml`);
   writeFileSync(token, `${kToken}\n`);
   writeFileSync(config, `[panel]\nport = 0\nhttp = "127.0.0.1:${port}"\nhttp_token_file = "token.txt"\nlinger = ${linger}\n`);
   const { child, match } = started(["run", "--config", config, "--design", design(), "--source", source, "--leading-edge", "u:0.4:0.6", "--tolerance", "0.15",
-    "--rest-tolerance", "0.5", "--session", join(folder, name), "--headless", "--until-idle", "60", ...words], /web panel at (http:\S+)/);
+    "--rest-tolerance", "0.5", "--session", name, "--headless", ...words], /web panel at (http:\S+)/);
   return { address: (await match)[1], stop: (signal = "SIGTERM") => end(child, signal) };
 }
 

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -71,11 +72,12 @@ std::string panel_address(const RunPlan& plan, const Host& host) {
 /// Serves the page of the web panel, where one is wanted. After the start of the host.
 void open_web(const RunPlan& plan, Host& host, WebPanel& web) {
   if (!plan.web) return;
-  WebSource source{.state = [&host] { return host.panel_state(); },
-                   .feed = host.feed(),
-                   .press = [&host](const PanelCommands& commands) { host.press(commands); },
-                   .design = design_json(Surface(plan.image), plan.host.localizer.tolerance, plan.host.axis,
-                                         plan.host.tip_radius_mm, plan.host.session_directory)};
+  WebSource source{
+      .state = [&host] { return host.panel_state(); },
+      .feed = host.feed(),
+      .press = [&host](const PanelCommands& commands) { host.press(commands); },
+      .design = design_json(Surface(plan.image), plan.host.localizer.tolerance, plan.host.axis, plan.host.tip_radius_mm,
+                            std::filesystem::path(plan.host.session_directory).filename().string())};
   if (const Failure failure = web.open(*plan.web, std::move(source))) throw ToolError(failure);
   if (!is_loopback(plan.web->host)) {
     tell(fmt::format("{}: other machines can reach this page, and nothing is encrypted; panel.allow limits who may ask",

@@ -48,19 +48,19 @@ class WebPanelTest : public ::testing::Test {
 
   void open(const std::string& token, const std::vector<std::string>& allow = {}) {
     panel = std::make_unique<WebPanel>();
-    const Failure failure =
-        panel->open({.host = "127.0.0.1", .port = 0, .token = token, .allow = allow}, {.state =
-                                                                           [this] {
-                                                                             const std::lock_guard lock(mutex);
-                                                                             return state;
-                                                                           },
-                                                                       .feed = &feed,
-                                                                       .press =
-                                                                           [this](const PanelCommands& commands) {
-                                                                             const std::lock_guard lock(mutex);
-                                                                             pressed.push_back(commands);
-                                                                           },
-                                                                       .design = R"({"name":"made up"})"});
+    const Failure failure = panel->open({.host = "127.0.0.1", .port = 0, .token = token, .allow = allow},
+                                        {.state =
+                                             [this] {
+                                               const std::lock_guard lock(mutex);
+                                               return state;
+                                             },
+                                         .feed = &feed,
+                                         .press =
+                                             [this](const PanelCommands& commands) {
+                                               const std::lock_guard lock(mutex);
+                                               pressed.push_back(commands);
+                                             },
+                                         .design = R"({"name":"made up"})"});
     ASSERT_FALSE(failure) << failure.message;
   }
 

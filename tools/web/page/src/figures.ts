@@ -12,7 +12,7 @@ function linkOf(state: State): string {
   if (state.link_down_s > 0 || state.alarms & 4) return `lost for ${duration(state.link_down_s)}`;
   if (state.ended) return "session ended";
   if (state.session === "idle") return "paused: no points are taken";
-  return state.session === "connecting" ? "connecting" : "there";
+  return state.session === "connecting" ? "connecting" : "connected";
 }
 
 function nextOf(state: State): string | null {

@@ -151,6 +151,7 @@ class Page {
     this.scene?.draw();
     this.strip.update(this.state, slot);
     void this.history.show(slot);
+    if (slot >= 0 && matchMedia("(min-width: 851px)").matches) byId("point").scrollIntoView({ block: "nearest" });
   }
 
   private go(sequence: number): void {

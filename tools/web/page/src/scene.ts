@@ -118,7 +118,7 @@ export class BladeScene {
     if (width === 0 || height === 0) return;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.byProcessor ? 1 : 2));
     this.renderer.setSize(width, height, false);
-    const wide = Math.max(width / height, 1), high = Math.max(height / width, 1), reach = 0.68 * this.reach;
+    const wide = Math.max(width / height, 1), high = Math.max(height / width, 1), reach = 0.72 * this.reach;
     Object.assign(this.camera, { left: -reach * wide, right: reach * wide, top: reach * high, bottom: -reach * high });
     this.camera.updateProjectionMatrix();
     this.draw();
