@@ -1,18 +1,18 @@
 #include "tools/web/design_json.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/geometry/surface/trim.hpp"
 #include "tools/show/base64.hpp"
 #include "tools/show/face_mesh.hpp"
+#include "tools/web/json_text.hpp"
 
 namespace bladefit {
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr double kFullByte = 127;
 
@@ -21,7 +21,9 @@ std::string base64_of(const std::vector<Number>& numbers) {
   return base64(std::as_bytes(std::span(numbers)));
 }
 
-Json triple(const Vec3& vector) { return std::array{vector.x(), vector.y(), vector.z()}; }
+std::string triple(const Vec3& vector) {
+  return json_list(std::array{vector.x(), vector.y(), vector.z()}, json_number);
+}
 
 /// 1 for each point of the grid that lies in its face, whose trims may leave parts of it out.
 std::vector<std::uint8_t> inside_of(const Surface& surface, const FaceMesh& mesh) {
@@ -34,7 +36,7 @@ std::vector<std::uint8_t> inside_of(const Surface& surface, const FaceMesh& mesh
   return inside;
 }
 
-Json grid_json(const Surface& surface, const FaceMesh& mesh) {
+std::string grid_json(const Surface& surface, const FaceMesh& mesh) {
   std::vector<float> places;
   std::vector<std::int8_t> normals;
   places.reserve(3 * mesh.points.size());
@@ -45,11 +47,8 @@ Json grid_json(const Surface& surface, const FaceMesh& mesh) {
   for (const Vec3& normal : mesh.normals) {
     for (const double part : normal) normals.push_back(static_cast<std::int8_t>(std::lround(kFullByte * part)));
   }
-  return {{"rows", mesh.us.size()},
-          {"columns", mesh.vs.size()},
-          {"places", base64_of(places)},
-          {"normals", base64_of(normals)},
-          {"inside", base64_of(inside_of(surface, mesh))}};
+  return fmt::format(R"({{"rows":{},"columns":{},"places":"{}","normals":"{}","inside":"{}"}})", mesh.us.size(),
+                     mesh.vs.size(), base64_of(places), base64_of(normals), base64_of(inside_of(surface, mesh)));
 }
 
 /// Those of `lines` between two limits, and the limits.
@@ -67,22 +66,18 @@ std::vector<double> lines_between(const std::vector<double>& lines, double low, 
 std::string design_json(const Surface& surface, const ToleranceMap& tolerance, const ShaftAxis& axis,
                         double tip_radius_mm, const std::string& name) {
   const std::vector<FaceMesh> faces = mesh_faces(surface);
-  Json grids = Json::array(), zones = Json::array();
-  for (const FaceMesh& face : faces) grids.push_back(grid_json(surface, face));
+  const auto grid = [&surface](const FaceMesh& mesh) { return grid_json(surface, mesh); };
+  std::vector<FaceMesh> zones;
   for (std::uint32_t k = 0; k < tolerance.box_count; ++k) {
     const ParameterBox& box = tolerance.boxes.at(k);
     const FaceMesh& face = faces.at(box.patch);
-    zones.push_back(grid_json(surface, mesh_over(surface, box.patch, lines_between(face.us, box.u_min, box.u_max),
-                                                 lines_between(face.vs, box.v_min, box.v_max))));
+    zones.push_back(mesh_over(surface, box.patch, lines_between(face.us, box.u_min, box.u_max),
+                              lines_between(face.vs, box.v_min, box.v_max)));
   }
-  const Json json = {{"name", name},
-                     {"middle", triple(surface.middle())},
-                     {"half_diagonal", surface.half_diagonal()},
-                     {"axis", {{"point", triple(axis.point)}, {"direction", triple(axis.direction)}}},
-                     {"tip", tip_radius_mm},
-                     {"faces", grids},
-                     {"zones", zones}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return fmt::format(
+      R"({{"name":{},"middle":{},"half_diagonal":{},"axis":{{"point":{},"direction":{}}},"tip":{},"faces":{},"zones":{}}})",
+      json_text(name), triple(surface.middle()), json_number(surface.half_diagonal()), triple(axis.point),
+      triple(axis.direction), json_number(tip_radius_mm), json_list(faces, grid), json_list(zones, grid));
 }
 
 }  // namespace bladefit
