@@ -74,6 +74,8 @@ void read_panel(TableReader& table, PanelSettings& panel) {
   const auto wrong = std::find_if_not(allowed.begin(), allowed.end(), is_numeric_address);
   if (wrong != allowed.end())
     return table.fail("allow", "'" + *wrong + "' is no numeric address; write for example \"192.168.0.7\"");
+  table.read("http", panel.http);
+  table.read_path("http_token_file", panel.http_token_file);
   table.finish();
 }
 

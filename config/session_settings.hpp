@@ -10,7 +10,7 @@
 
 namespace bladefit {
 
-/// The operator's panel over Modbus TCP.
+/// The operator's panel over Modbus TCP, and the page in a browser.
 struct PanelSettings {
   std::optional<std::string> address;             ///< to listen at; the host's default is 127.0.0.1
   std::optional<std::uint16_t> port;              ///< 0 = any free one; the host's default is 1503
@@ -19,6 +19,8 @@ struct PanelSettings {
   std::optional<double> infinity;                 ///< sent for what is infinite; not NaN
   std::optional<double> linger;                   ///< [s] that the panel stays with the result of an ended session
   std::optional<std::vector<std::string>> allow;  ///< addresses that may connect; empty = every one
+  std::optional<std::string> http;                ///< HOST:PORT to serve the web panel at; it is off unless set
+  std::optional<std::string> http_token_file;     ///< holds what a page must know that presses commands
 };
 
 /// A session as a file gives it. What is not set is left to the caller, so that flags win over the file.

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The main job on a simulated machine: installs, builds, compiles the design of a propeller blade (DTMB 4119), fits its
 # points and checks the result against an independent solution; then a live session in which a simulated CMM sends 200
-# points a second, with some leading-edge defects to be flagged, and the report of it.
+# points a second, with some leading-edge defects to be flagged, and the report of it. The address of the session's web
+# panel is printed when it begins.
 #   tools/demo.sh            over Modbus TCP
 #   tools/demo.sh --serial   over a serial line (pseudo terminal)
 # Exit codes: 0 done; 1 it does not build, or the answer is not that of the independent solution; 2 wrong use; 3 a package
@@ -14,7 +15,7 @@ case "${1:-}" in
   "") ;;
   --serial) transport=serial ;;
   *)
-    sed -n '2,8s/^# \{0,1\}//p' tools/demo.sh >&2
+    sed -n '2,9s/^# \{0,1\}//p' tools/demo.sh >&2
     exit 2
     ;;
 esac
@@ -53,6 +54,10 @@ awk -F, 'BEGIN { OFS = "," }
   "$data/points.csv" >"$out/points.csv"
 echo "Written: $out/points.csv (points 811 to 816: 0.31 mm too much; 1312 to 1315: 0.27 mm too little; 1688, 1689: 0.24 mm too much)"
 
+# Without Node.js and its registry the program has no web panel.
+web=()
+if grep -q kFile0 build/release/tools/web/page_files.cpp; then web=(--http 127.0.0.1:0); fi
+
 say "5. Live session over $transport at 200 points a second"
 simulator=""
 trap '[[ -z "$simulator" ]] || { kill "$simulator" && wait "$simulator"; } 2>/dev/null || true' EXIT
@@ -75,7 +80,7 @@ else
 fi
 status=0
 "$bladefit" run --design "$out/blade.bfd" --source "$source" --leading-edge u:0.4:0.6 --tolerance 0.15 --rest-tolerance 0.5 \
-  --session "$out/session" --panel 127.0.0.1:0 --until-idle 5 --json "$out/live.json" || status=$?
+  --session "$out/session" --panel 127.0.0.1:0 "${web[@]}" --until-idle 5 --json "$out/live.json" || status=$?
 [[ $status -le 1 ]] || exit "$status"
 
 say "6. Report"

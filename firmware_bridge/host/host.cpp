@@ -98,6 +98,7 @@ struct Host::Running {
   std::string settings_text;  ///< of this session
   PanelServer server;
   BladeLayout layout;
+  std::unique_ptr<PointFeed> feed;
   std::unique_ptr<LocalizerMemory> memory;
   Localizer* localizer = nullptr;
   std::optional<Acquisition> acquisition;
@@ -164,8 +165,9 @@ Failure Host::start() {
   running.acquisition.emplace(acquisition, running.recorded, source_, running.journal, shared_);
   running.fit.emplace(*running.localizer, settings_.localizer.capacity, settings_.path_refine_points, shared_);
   running.layout = BladeLayout(design_, settings_.localizer, settings_.axis, settings_.tip_radius_mm);
+  if (settings_.feed) running.feed = std::make_unique<PointFeed>();
   running.publication.emplace(settings_.localizer.tolerance, running.layout, settings_.source_name, running.server,
-                              shared_);
+                              running.feed.get(), shared_);
   running.panel = std::thread([&running] { running.publication->run(); });
   running.threads.emplace_back([&running] { running.fit->run(); });
   running.threads.emplace_back([&running, this] { write_journal(running.journal, shared_); });
@@ -187,6 +189,10 @@ bool Host::wait_for_end(std::chrono::milliseconds timeout) {
 void Host::request_stop() { shared_.requests.stop.store(true); }
 
 PanelState Host::panel_state() const { return running_->publication->shown(); }
+
+const PointFeed* Host::feed() const { return running_->feed.get(); }
+
+void Host::press(const PanelCommands& commands) { running_->publication->press(commands); }
 
 void Host::conclude(const Conclusion& conclusion) {
   running_->publication->conclude(conclusion, running_->judged_again);

@@ -6,7 +6,9 @@
 #include "core/inspection/shaft_axis.hpp"
 #include "core/localizer.hpp"
 #include "drivers/source/probe_source.hpp"
+#include "firmware_bridge/host/feed/point_feed.hpp"
 #include "firmware_bridge/host/panel/conclusion.hpp"
+#include "firmware_bridge/host/panel/panel_protocol.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/session_result.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
@@ -18,6 +20,7 @@ struct HostSettings {
   /// Made when it is missing, and removed again when nothing was put into it. A session in it is resumed.
   std::string session_directory;
   PanelServerSettings panel;
+  bool feed = false;         ///< whether points and verdicts are kept for those who draw them
   ShaftAxis axis;            ///< from which the panel's radii are
   double tip_radius_mm = 0;  ///< R of r/R; 0 = the greatest radius of places all over the design
   std::string source_name;   ///< where the points come from, for the panel
@@ -60,6 +63,12 @@ class Host {
 
   /// What the panel shows now: the session's own screen needs no connection. After start().
   [[nodiscard]] PanelState panel_state() const;
+
+  /// Points and verdicts for those who draw them; null where the settings ask for none. After start().
+  [[nodiscard]] const PointFeed* feed() const;
+
+  /// Start, stop, reset and acknowledge, as the coils of the panel. Any thread, after start().
+  void press(const PanelCommands& commands);
 
   /// Gives what the session came to, and its points one by one: the memory for it does not depend on their number. Call
   /// once, after wait_for_end() was true. The panel goes on showing it, as ended, until the host is destroyed.

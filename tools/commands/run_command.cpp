@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,6 +28,9 @@
 #include "tools/results/json_writer.hpp"
 #include "tools/results/operator_summary.hpp"
 #include "tools/results/session_files.hpp"
+#include "tools/web/design_json.hpp"
+#include "tools/web/web_access.hpp"
+#include "tools/web/web_panel.hpp"
 
 namespace bladefit {
 namespace {
@@ -64,6 +68,27 @@ int exit_code_of(const Failure& failure) { return ToolError(failure).exit_code()
 /// Where others find the panel of this session.
 std::string panel_address(const RunPlan& plan, const Host& host) {
   return fmt::format("{}:{}", plan.host.panel.host, host.panel_port());
+}
+
+/// Serves the page of the web panel, where one is wanted. After the start of the host.
+void open_web(const RunPlan& plan, Host& host, WebPanel& web) {
+  if (!plan.web) return;
+  WebSource source{
+      .state = [&host] { return host.panel_state(); },
+      .feed = host.feed(),
+      .press = [&host](const PanelCommands& commands) { host.press(commands); },
+      .design = design_json(Surface(plan.image), plan.host.localizer.tolerance, plan.host.axis, plan.host.tip_radius_mm,
+                            std::filesystem::path(plan.host.session_directory).filename().string())};
+  if (const Failure failure = web.open(*plan.web, std::move(source))) throw ToolError(failure);
+  if (!is_loopback(plan.web->host)) {
+    tell(fmt::format("{}: other machines can reach this page, and nothing is encrypted; panel.allow limits who may ask",
+                     web.address()));
+  }
+}
+
+/// ", web panel at http://127.0.0.1:8080/"; empty where there is none.
+std::string web_address(const RunPlan& plan, const WebPanel& web) {
+  return plan.web ? fmt::format(", web panel at {}", web.address()) : "";
 }
 
 void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
@@ -207,10 +232,12 @@ int run(const RunFlags& flags) {
   const std::unique_ptr<ProbeSource> source = make_source(plan.source);
   Host host(plan.host, plan.image, *source, [&notices](const std::string& line) { notices.add(line); });
   if (const Failure failure = host.start()) throw ToolError(failure);
+  WebPanel web;
+  open_web(plan, host, web);
   for (const std::string& part : stray_parts(plan))
     tell(fmt::format("{}: left by a run that was killed; removed", part));
-  const std::string begun = fmt::format("Points from {}, session in {}, panel at {}\n", source_name(plan.source),
-                                        plan.host.session_directory, panel_address(plan, host));
+  const std::string begun = fmt::format("Points from {}, session in {}, panel at {}{}\n", source_name(plan.source),
+                                        plan.host.session_directory, panel_address(plan, host), web_address(plan, web));
   if (!plan.volume.quiet) std::fputs(begun.c_str(), words.file);
   clock.done("session begun");
   std::fflush(words.file);
@@ -235,6 +262,8 @@ void add_session_options(CLI::App& command, RunFlags& flags) {
   text("--source", session.source, source_uri_forms().c_str());
   text("--session", session.session, "folder of the journal and the results; a session in it is resumed");
   command.add_option("--panel", flags.panel, "HOST:PORT to serve the panel at (default 127.0.0.1:1503; port 0: any)");
+  command.add_option("--http", flags.http,
+                     "HOST:PORT to serve the web panel at (off unless set; for example 127.0.0.1:8080, port 0: any)");
   command.add_flag_callback(
       "--headless", [&session] { session.headless = true; }, "no screen; ends when the machine's program is finished");
   command.add_option_function<double>(

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "config/device_settings.hpp"
@@ -85,6 +86,38 @@ PanelServerSettings plan_panel(const PanelSettings& file, const std::string& fla
     throw ToolError(fmt::format("--panel {}: is no address; use HOST:PORT, for example 127.0.0.1:1503", flag));
   }
   return panel;
+}
+
+/// The token in a file: its first line.
+std::string read_token(const std::string& path) {
+  std::ifstream file(path);
+  std::string token;
+  if (!std::getline(file, token)) {
+    throw ToolError(
+        fmt::format("panel.http_token_file {}: cannot be read; write a token of {} characters or more there", path,
+                    kShortestToken));
+  }
+  if (token.ends_with('\r')) token.pop_back();
+  if (token.size() < kShortestToken || token.find_first_of(" \t") != std::string::npos) {
+    throw ToolError(
+        fmt::format("panel.http_token_file {}: its first line must be a token of {} characters or more without blanks",
+                    path, kShortestToken));
+  }
+  return token;
+}
+
+/// The web panel, where one is asked for.
+std::optional<WebSettings> plan_web(const PanelSettings& file, const std::string& flag) {
+  const std::string address = flag.empty() ? file.http.value_or("") : flag;
+  if (address.empty()) return std::nullopt;
+  WebSettings web;
+  if (!parse_address(address, web.host, web.port)) {
+    throw ToolError(fmt::format("{} {}: is no address; use HOST:PORT, for example 127.0.0.1:8080",
+                                flag.empty() ? "panel.http" : "--http", address));
+  }
+  if (file.allow) web.allow = *file.allow;
+  if (file.http_token_file) web.token = read_token(*file.http_token_file);
+  return web;
 }
 
 /// Standard input can be read once.
@@ -179,6 +212,8 @@ RunPlan plan_run(const RunFlags& flags) {
   plan.host.source_name = source_name(plan.source);
   plan.host.session_directory = session.session.value_or(new_session_name());
   plan.host.panel = plan_panel(session.panel, flags.panel);
+  plan.web = plan_web(session.panel, flags.http);
+  plan.host.feed = plan.web.has_value();
   plan.linger = std::chrono::milliseconds(std::llround(session.panel.linger.value_or(0) * kMillisecondsPerSecond));
   plan.host.idle = idle_of(session);
   plan.host.planned = planned_points(session.plan.value_or(PointPlan{}), plan.fit.points);

@@ -8,6 +8,7 @@
 #include "firmware_bridge/host/host.hpp"
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/volume_flags.hpp"
+#include "tools/web/web_settings.hpp"
 
 namespace bladefit {
 
@@ -16,6 +17,7 @@ struct RunFlags {
   std::string config;  ///< session TOML
   std::string json;    ///< where to write a copy of result.json; - = standard output
   std::string panel;   ///< HOST:PORT
+  std::string http;    ///< HOST:PORT
   Volume volume;
   SessionSettings session;
 };
@@ -27,6 +29,7 @@ struct RunPlan {
   FitPlan fit;
   SourceSettings source;
   HostSettings host;
+  std::optional<WebSettings> web;  ///< where there is to be a web panel
   bool headless = false;
   std::chrono::milliseconds linger{0};  ///< that the panel stays with the result
   std::string json;

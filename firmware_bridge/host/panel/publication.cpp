@@ -34,8 +34,13 @@ double over_tolerance(const Verdict* verdict) {
 }  // namespace
 
 Publication::Publication(const ToleranceMap& tolerance, const BladeLayout& layout, const std::string& source,
-                         PanelServer& server, HostShared& shared)
-    : tolerance_(tolerance), layout_(layout), server_(server), shared_(shared), tally_(tolerance_, layout_) {
+                         PanelServer& server, PointFeed* feed, HostShared& shared)
+    : tolerance_(tolerance),
+      layout_(layout),
+      server_(server),
+      feed_(feed),
+      shared_(shared),
+      tally_(tolerance_, layout_) {
   state_.texts[kSourceText] = source;
 }
 
@@ -45,7 +50,8 @@ void Publication::run() {
     const bool over = shared_.fit_done.load();
     const bool last_turn = over && shared_.panel_closed.load();
     shared_.to_publication.wakeup.clear();
-    if (take_news() || last_turn || pressed_ || Clock::now() - updated_.state >= kLongestWait) show();
+    follow_others();
+    if (take_news() || last_turn || pressed_ || Clock::now() - times_.state >= kLongestWait) show();
     server_.serve(image_, on_commands);
     if (last_turn) return linger();
     server_.wait(shared_.to_publication.wakeup.descriptor(), kLongestWait);
@@ -64,7 +70,7 @@ void Publication::linger() {
 
 void Publication::show() {
   pressed_ = false;
-  updated_.state = Clock::now();
+  times_.state = Clock::now();
   const std::lock_guard lock(common_.mutex);
   update_state();
   state_.ended = common_.concluded.has_value();
@@ -76,6 +82,30 @@ void Publication::show() {
 PanelState Publication::shown() {
   const std::lock_guard lock(common_.mutex);
   return common_.shown;
+}
+
+void Publication::press(const PanelCommands& commands) {
+  {
+    const std::lock_guard lock(common_.mutex);
+    PanelCommands& all = common_.pressed ? *common_.pressed : common_.pressed.emplace();
+    // The later one of two that contradict each other stands.
+    if (commands.start || commands.stop) all.start = all.stop = false;
+    all.start |= commands.start;
+    all.stop |= commands.stop;
+    all.reset |= commands.reset;
+    all.acknowledge |= commands.acknowledge;
+  }
+  shared_.to_publication.wakeup.signal();
+}
+
+/// Does what other threads pressed.
+void Publication::follow_others() {
+  std::optional<PanelCommands> commands;
+  {
+    const std::lock_guard lock(common_.mutex);
+    commands.swap(common_.pressed);
+  }
+  if (commands) follow(*commands);
 }
 
 void Publication::conclude(const Conclusion& conclusion, std::shared_ptr<const Tally> judged_again) {
@@ -103,6 +133,7 @@ void Publication::take(const FitOutput& output) {
   switch (output.kind) {
     case FitOutput::Kind::forgotten:
       tally_.clear();
+      if (feed_ != nullptr) feed_->clear();
       last_ = {};
       return;
     case FitOutput::Kind::given_up:
@@ -112,6 +143,7 @@ void Publication::take(const FitOutput& output) {
       break;
   }
   tally_.accept(verdict);
+  if (feed_ != nullptr) feed_->judged(verdict);
   if (verdict.sequence >= last_.sequence) last_ = verdict;
   if (output.kind == FitOutput::Kind::judged_last) tally_.give_up(verdict.sequence);
 }
@@ -126,7 +158,7 @@ void Publication::update_state() {
   state_.session = session_state();
   state_.alarms = alarms();
   update_verdict();
-  const auto running = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - start_).count();
+  const auto running = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - times_.start).count();
   state_.heartbeat = static_cast<std::uint16_t>(running);
 }
 
@@ -227,9 +259,9 @@ void Publication::update_link() {
 
 /// The result is told at once.
 void Publication::update_blade() {
-  const bool due = updated_.state - updated_.blade >= kBladeEvery;
+  const bool due = times_.state - times_.blade >= kBladeEvery;
   if (!due && !common_.concluded) return;
-  updated_.blade = updated_.state;
+  times_.blade = times_.state;
   state_.blade = view_of_blade(layout_, tally().blade(), figures_.report);
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/inspection/tolerance_map.hpp"
 #include "firmware_bridge/host/blade/blade_layout.hpp"
+#include "firmware_bridge/host/feed/point_feed.hpp"
 #include "firmware_bridge/host/panel/conclusion.hpp"
 #include "firmware_bridge/host/panel/panel_server.hpp"
 #include "firmware_bridge/host/panel/tally.hpp"
@@ -17,9 +18,10 @@ namespace bladefit {
 /// waits for a disk or a client, so that a verdict is readable on the panel as soon as it is there.
 class Publication {
  public:
-  /// `layout`, `server` and `shared` must outlive it. `source`: the name of what the points come from.
+  /// `layout`, `server`, `feed` and `shared` must outlive it. `source`: the name of what the points come from. `feed`,
+  /// where there is one, gets every verdict.
   Publication(const ToleranceMap& tolerance, const BladeLayout& layout, const std::string& source, PanelServer& server,
-              HostShared& shared);
+              PointFeed* feed, HostShared& shared);
 
   /// Runs until HostShared::panel_closed is set and the fit is done; then, up to a second longer, until the clients
   /// that ask have seen the last state.
@@ -27,6 +29,9 @@ class Publication {
 
   /// What the panel shows now. Any thread.
   [[nodiscard]] PanelState shown();
+
+  /// Does what a coil of the panel does, whether or not coils may be written. Any thread.
+  void press(const PanelCommands& commands);
 
   /// What the session came to, with what was found against its fit elsewhere: its verdict stands
   /// instead of that which follows from counts and fit. `judged_again`, where there is one, counts every point at the
@@ -51,10 +56,12 @@ class Publication {
   [[nodiscard]] SessionState session_state();
   [[nodiscard]] std::uint16_t alarms() const;
   void follow(const PanelCommands& commands);
+  void follow_others();
 
   ToleranceMap tolerance_;
   const BladeLayout& layout_;
   PanelServer& server_;
+  PointFeed* feed_;
   HostShared& shared_;
   Tally tally_;
   FitFigures figures_;
@@ -66,9 +73,10 @@ class Publication {
     std::uint64_t times_out = 0, losses = 0;
   } acknowledged_;
   bool pressed_ = false;  ///< a command came since the last update
-  struct Updated {
-    Clock::time_point state{}, blade{};
-  } updated_;
+  /// Of the start, and of the last updates.
+  struct Times {
+    Clock::time_point start = Clock::now(), state{}, blade{};
+  } times_;
   PanelImage image_;
   /// What other threads read or write.
   struct Shared {
@@ -76,8 +84,8 @@ class Publication {
     PanelState shown;
     std::optional<Conclusion> concluded;
     std::shared_ptr<const Tally> judged_again;
+    std::optional<PanelCommands> pressed;
   } common_;
-  Clock::time_point start_ = Clock::now();
 };
 
 }  // namespace bladefit
