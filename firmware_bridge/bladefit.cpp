@@ -52,17 +52,14 @@ bladefit_status check_call(const bladefit_handle* handle, const Struct* structur
   return status != BLADEFIT_OK ? status : check_struct(structure);
 }
 
-/// Checks the configuration and the design, each on its own and against each other.
-bladefit_status prepare(const bladefit_config* config, const void* design, std::size_t design_size,
-                        LocalizerConfig& translated, DesignImage& image) {
-  if (const bladefit_status status = check_struct(config); status != BLADEFIT_OK) return status;
-  if (const bladefit_status status = bladefit::translate_config(*config, translated); status != BLADEFIT_OK) {
-    return status;
-  }
-  if (design == nullptr) return BLADEFIT_NULL_ARGUMENT;
-  const std::span bytes(static_cast<const std::byte*>(design), design_size);
-  if (const Status status = DesignImage::open(bytes, image); status != Status::ok) return to_abi(status);
-  return to_abi(bladefit::check_config(translated, image.patches().size()).status);
+std::span<const std::byte> bytes_of(const void* design, std::size_t design_size) {
+  return {static_cast<const std::byte*>(design), design_size};
+}
+
+/// Checks the configuration by itself.
+bladefit_status prepare(const bladefit_config* config, LocalizerConfig& translated) {
+  const bladefit_status status = check_struct(config);
+  return status != BLADEFIT_OK ? status : bladefit::translate_config(*config, translated);
 }
 
 }  // namespace
@@ -80,10 +77,17 @@ const char* bladefit_status_text(bladefit_status status) {
   }
 }
 
+bladefit_status bladefit_design_check(const void* design, size_t design_size) {
+  DesignImage image;
+  return to_abi(DesignImage::open(bytes_of(design, design_size), image));
+}
+
 size_t bladefit_memory_required(const bladefit_config* config, const void* design, size_t design_size) {
   LocalizerConfig translated;
-  DesignImage image;
-  if (prepare(config, design, design_size, translated, image) != BLADEFIT_OK) return 0;
+  const bladefit::ImageHeader* header = nullptr;
+  if (prepare(config, translated) != BLADEFIT_OK) return 0;
+  if (DesignImage::open_head(bytes_of(design, design_size), header) != Status::ok) return 0;
+  if (bladefit::check_config(translated, header->patch_count)) return 0;
   return kHeadSize + Localizer::memory_required(translated);
 }
 
@@ -97,9 +101,10 @@ bladefit_status bladefit_init(void* memory, size_t memory_size, const void* desi
   }
   LocalizerConfig translated;
   DesignImage image;
-  if (const bladefit_status status = prepare(config, design, design_size, translated, image); status != BLADEFIT_OK) {
-    return status;
-  }
+  if (const bladefit_status status = prepare(config, translated); status != BLADEFIT_OK) return status;
+  const std::span bytes = bytes_of(design, design_size);
+  if (const Status status = DesignImage::open(bytes, image); status != Status::ok) return to_abi(status);
+  if (const auto fault = bladefit::check_config(translated, image.patches().size())) return to_abi(fault.status);
   if (memory_size < kHeadSize + Localizer::memory_required(translated)) return BLADEFIT_NOT_ENOUGH_MEMORY;
   const std::span block(static_cast<std::byte*>(memory), memory_size);
   Localizer* localizer = nullptr;

@@ -76,14 +76,9 @@ enum {
 };                            /* bladefit_config.mode: what the fit minimises */
 enum { BLADEFIT_REGIONS_FOLLOW = 0, BLADEFIT_REGIONS_FIXED = 1 };                  /* bladefit_config.regions */
 enum { BLADEFIT_LOSS_NONE = 0, BLADEFIT_LOSS_HUBER = 1, BLADEFIT_LOSS_TUKEY = 2 }; /* bladefit_config.loss */
-enum {
-  BLADEFIT_LOCK_TX = 1,
-  BLADEFIT_LOCK_TY = 2,
-  BLADEFIT_LOCK_TZ = 4,
-  BLADEFIT_LOCK_RX = 8,  /* psi */
-  BLADEFIT_LOCK_RY = 16, /* theta */
-  BLADEFIT_LOCK_RZ = 32  /* phi */
-};                       /* bladefit_config.locked, added up: keep their value of the start pose */
+/* bladefit_config.locked, added up: these keep their value of the start pose. RX, RY, RZ: psi, theta, phi. */
+enum { BLADEFIT_LOCK_TX = 1, BLADEFIT_LOCK_TY = 2, BLADEFIT_LOCK_TZ = 4 };
+enum { BLADEFIT_LOCK_RX = 8, BLADEFIT_LOCK_RY = 16, BLADEFIT_LOCK_RZ = 32 };
 enum { BLADEFIT_INTERIOR = 0, BLADEFIT_EDGE = 1, BLADEFIT_CORNER = 2 }; /* kind */
 enum { BLADEFIT_REST = 0, BLADEFIT_LEADING_EDGE = 1 };                  /* region */
 enum {
@@ -93,11 +88,8 @@ enum {
   BLADEFIT_REJECTED = 3, /* left out of fit and judgement */
   BLADEFIT_UNDECIDED = 4 /* BLADEFIT_GUARDED: nearer to its tolerance than its expanded uncertainty */
 };                       /* state */
-enum {
-  BLADEFIT_SIMPLE = 0,
-  BLADEFIT_GUARDED = 1
-}; /* bladefit_config.decision: distances are compared as they are, or
-      with their expanded uncertainty (ISO 14253-1:2017) */
+/* bladefit_config.decision: distances as they are, or with their expanded uncertainty (ISO 14253-1:2017) */
+enum { BLADEFIT_SIMPLE = 0, BLADEFIT_GUARDED = 1 };
 enum { BLADEFIT_NO_ACTION = 0, BLADEFIT_CUT = 1, BLADEFIT_WELD = 2 }; /* action */
 enum {
   BLADEFIT_LEFT_OUT_NONE = 0,
@@ -238,6 +230,12 @@ typedef struct bladefit_fit_report {
   bladefit_certificate certificate;
 } bladefit_fit_report;
 
+/* At least the bytes that bladefit_init() needs, as a constant for static memory, whatever else is configured:
+ *   static double memory[BLADEFIT_MEMORY_BYTES(4096, BLADEFIT_LEAST_SQUARES) / sizeof(double) + 8];
+ * of which the first address that BLADEFIT_MEMORY_ALIGNMENT divides is given. */
+#define BLADEFIT_MEMORY_BYTES(capacity, mode) \
+  (46080u + (size_t)(capacity) * ((mode) == BLADEFIT_LEAST_SQUARES ? 280u : 424u))
+
 /* A fit in the caller's memory. */
 typedef struct bladefit_handle bladefit_handle;
 
@@ -247,8 +245,12 @@ uint32_t bladefit_abi_version(void);
 /* Any thread, any time. One English phrase for a status, never null; it lives for ever. */
 const char* bladefit_status_text(bladefit_status status);
 
-/* Any thread, any time. Bytes that bladefit_init() needs for this configuration and design; 0 when either of them is
- * not valid: bladefit_init() with the same arguments then says why. Cost: linear in design_size. */
+/* Any thread, any time. Whether bladefit_init() would take the design. Returns OK, NULL_ARGUMENT, MISALIGNED,
+ * BAD_MAGIC, BAD_BYTE_ORDER, BAD_VERSION, BAD_LENGTH, BAD_CRC or BAD_CONTENT. Cost: linear in design_size. */
+bladefit_status bladefit_design_check(const void* design, size_t design_size);
+
+/* Any thread, any time. Bytes that bladefit_init() needs for this configuration and design; 0 when the configuration is
+ * not valid or the design's head not that of an image: bladefit_init() then says why. Cost: constant. */
 size_t bladefit_memory_required(const bladefit_config* config, const void* design, size_t design_size);
 
 /* Makes a fit in `memory` and writes its handle. `design` is a design image (.bfd), 8-byte aligned; it is used in place

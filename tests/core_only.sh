@@ -42,6 +42,7 @@ int main(void) {
   memset(&point, 0, sizeof point);
   if (bladefit_abi_version() != BLADEFIT_ABI_VERSION) return 1;
   if (bladefit_memory_required(&config, design, sizeof design) != 0) return 2;
+  if (bladefit_design_check(design, sizeof design) != BLADEFIT_BAD_MAGIC) return 5;
   if (bladefit_init(memory, sizeof memory, design, sizeof design, &config, &handle) >= 0) return 3;
   refused += bladefit_push(handle, &point, &verdict) < 0;
   refused += bladefit_next_revision(handle, &verdict) < 0;

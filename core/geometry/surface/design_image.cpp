@@ -168,10 +168,6 @@ constexpr std::uint32_t swapped(std::uint32_t word) {
 }
 
 Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
-  if (std::memcmp(h.magic, kImageMagic, sizeof kImageMagic) != 0) return Status::bad_magic;
-  if (h.version == swapped(kImageVersion)) return Status::bad_byte_order;
-  if (h.version != kImageVersion) return Status::bad_version;
-  if (h.total_size != bytes.size()) return Status::bad_length;
   if (image_crc(bytes) != h.crc32) return Status::bad_crc;
   const bool arrays = array_fits<ImagePatch>(h.patches_offset, h.patch_count, h.total_size) &&
                       array_fits<ImageSpan>(h.spans_offset, h.span_count, h.total_size) &&
@@ -199,15 +195,23 @@ std::uint32_t image_crc(std::span<const std::byte> image) {
   return crc32(image.subspan(field + zero.size()), before);
 }
 
-Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {
+Status DesignImage::open_head(std::span<const std::byte> bytes, const ImageHeader*& header) {
   if (bytes.data() == nullptr) return Status::null_argument;
   if (reinterpret_cast<std::uintptr_t>(bytes.data()) % 8 != 0) return Status::misaligned;
   if (bytes.size() >= sizeof kImageMagic && std::memcmp(bytes.data(), kImageMagic, sizeof kImageMagic) != 0)
     return Status::bad_magic;
   if (bytes.size() < sizeof(ImageHeader)) return Status::bad_length;
+  const auto* const h = reinterpret_cast<const ImageHeader*>(bytes.data());
+  if (h->version == swapped(kImageVersion)) return Status::bad_byte_order;
+  if (h->version != kImageVersion) return Status::bad_version;
+  if (h->total_size != bytes.size()) return Status::bad_length;
+  header = h;
+  return Status::ok;
+}
 
+Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {
   DesignImage candidate;
-  candidate.header_ = reinterpret_cast<const ImageHeader*>(bytes.data());
+  if (const Status status = open_head(bytes, candidate.header_); status != Status::ok) return status;
   const ImageHeader& h = *candidate.header_;
   if (const Status status = header_status(bytes, h); status != Status::ok) return status;
   candidate.patches_ = view<ImagePatch>(bytes, h.patches_offset, h.patch_count);

@@ -145,6 +145,10 @@ class DesignImage {
   /// bad_content; `image` is written only with ok. Cost: linear in the size; done once.
   [[nodiscard]] static Status open(std::span<const std::byte> bytes, DesignImage& image);
 
+  /// The first part of these checks: alignment, magic, version and length. `header` points into `bytes` with ok. Cost:
+  /// constant.
+  [[nodiscard]] static Status open_head(std::span<const std::byte> bytes, const ImageHeader*& header);
+
   [[nodiscard]] const ImageHeader& header() const { return *header_; }
   [[nodiscard]] std::span<const ImagePatch> patches() const { return patches_; }
   [[nodiscard]] std::span<const ImageSpan> spans() const { return spans_; }
