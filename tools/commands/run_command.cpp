@@ -145,7 +145,7 @@ WrittenFiles write_files(const RunPlan& plan, const Result& result) {
 
 /// Writes what the session came to, also after a fault: then of the points stored before it. Whatever cannot be written
 /// keeps nothing else from it.
-int conclude(const RunPlan& plan, Host& host, const Words& words) {
+int conclude(const RunPlan& plan, Host& host, const Words& words, const ReportRecord& record) {
   SessionPoints points;
   const SessionResult session = host.finish(points);
   if (session.error) tell(session.error.message);
@@ -159,8 +159,9 @@ int conclude(const RunPlan& plan, Host& host, const Words& words) {
                     "check that the machine's program is running",
                     plan.host.session_directory));
   }
-  const Result result =
-      result_of(plan.image, plan.fit, points.rows, session.report, stream, plan.host.session_directory);
+  Result result = result_of(plan.image, plan.fit, points.rows, session.report, stream, plan.host.session_directory);
+  result.record = record;
+  result.record->ended = utc_now();
   host.conclude({result.verdict.state, result.verdict.codes()});
   const WrittenFiles files = write_files(plan, result);
   std::string text = told_of(operator_summary(result), plan.volume);
@@ -183,6 +184,27 @@ std::vector<std::string> stray_parts(const RunPlan& plan) {
   return parts;
 }
 
+/// Writes what reports of the session will need, so that they have it also where this run is killed. Whatever cannot be
+/// written is told, and keeps the session from nothing.
+ReportRecord begin_record(const RunPlan& plan) {
+  const std::string& directory = plan.host.session_directory;
+  ReportRecord record;
+  const auto part = [](const auto& step) {
+    try {
+      step();
+    } catch (const ToolError& error) {
+      tell(error.what());
+    }
+  };
+  part([&] { record = report_record_of(plan.report, plan.files); });
+  part([&] {
+    if (const auto before = read_session_record(directory)) record = resumed(*before, record);
+  });
+  part([&] { write_session_record(directory, record); });
+  part([&] { write_session_design(directory, plan.design.image); });
+  return record;
+}
+
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
   const Words words(plan.json == "-" ? stderr : stdout);
@@ -199,6 +221,7 @@ int run(const RunFlags& flags) {
   if (const Failure failure = host.start()) throw ToolError(failure);
   for (const std::string& part : stray_parts(plan))
     tell(fmt::format("{}: left by a run that was killed; removed", part));
+  const ReportRecord record = begin_record(plan);
   const std::string begun = fmt::format("Points from {}, session in {}, panel at {}\n", source_name(plan.source),
                                         plan.host.session_directory, panel_address(plan, host));
   if (!plan.volume.quiet) std::fputs(begun.c_str(), words.file);
@@ -207,7 +230,7 @@ int run(const RunFlags& flags) {
   watch(host, plan, stop);
   clock.done("points taken");
   notices.flush();
-  const int exit_code = conclude(plan, host, words);
+  const int exit_code = conclude(plan, host, words, record);
   clock.done("result written");
   if (exit_code != kBadInput) linger(plan, stop, host.panel_port(), words.file);
   return exit_code;

@@ -136,8 +136,6 @@ std::string headline(const Result& result) {
 
 std::vector<std::string> summary_sentences(const Result& result) {
   std::vector<std::string> sentences;
-  for (const VerdictReason& reason : result.verdict.reasons)
-    sentences.push_back(fmt::format("{}: {}.", readable(word_of(reason.code)), reason.text));
   sentences.push_back(points_sentence(result));
   sentences.push_back(fit_sentence(result));
   for (const Region region : {Region::leading_edge, Region::rest}) {

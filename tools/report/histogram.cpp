@@ -6,12 +6,13 @@
 #include <cmath>
 #include <vector>
 
+#include "tools/report/picture_style.hpp"
 #include "tools/report/report_text.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr double kPlotWidth = 1080, kPlotLeft = 56, kPlotRight = 16, kPlotTop = 26, kHeight = 130, kPlotBottom = 40;
+constexpr double kPlotWidth = 720, kPlotLeft = 56, kPlotRight = 16, kPlotTop = 26, kHeight = 130, kPlotBottom = 40;
 constexpr double kWantedBins = 40;
 constexpr double kLeastBar = 2;  // so that a single point among thousands is seen
 constexpr double kFarAway = 4;   // times the distance that nine of ten points keep to, or the widest tolerance
@@ -127,8 +128,8 @@ std::string distance_histogram(const Result& result, const ColourScale& scale) {
     svg += axis(bins, bottom, title);
     bottom += kPlotBottom;
   }
-  return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"Histogram of distances\">\n{}</svg>\n",
-                     kPlotWidth, bottom, svg);
+  return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"Histogram of distances\">\n{}{}</svg>\n",
+                     kPlotWidth, bottom, kPictureStyle, svg);
 }
 
 }  // namespace bladefit
