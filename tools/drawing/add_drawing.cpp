@@ -138,6 +138,11 @@ void add_drawing(const DesignImage& design, Result& result) {
   if (drawing.sides_known) drawing.suction_beside = parts.suction_sign;
   place_points(parts, result, drawing);
   add_sections(grid, result, layout.tip_radius_mm(), drawing);
+  result.points.change_each([&surface](ResultPoint point) {
+    if (!point.foot && point.patch < surface.image().patches().size())
+      point.foot = surface.evaluate(surface.place_at(point.patch, point.u, point.v)).s;
+    return point;
+  });
   result.drawing = std::move(drawing);
 }
 

@@ -6,7 +6,7 @@
 namespace bladefit {
 namespace {
 
-constexpr double kGap = 0.006, kWidest = 0.02;  ///< shares of R: between clusters, and across one
+constexpr double kGap = 0.006, kWidest = 0.04;  ///< shares of R: between clusters, and across one
 constexpr std::size_t kLeastPoints = 3;
 constexpr double kLeastShare = 0.9;  ///< of the points, that clusters must hold
 constexpr std::array<double, 13> kNavalRatios = {0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.975, 0.99};

@@ -62,10 +62,11 @@ std::string opening(double height, const char* label) {
                      kPictureStyle);
 }
 
-std::string drawn(const std::vector<MapPanel>& panels, const Result& result, const ColourScale& scale) {
+std::string drawn_panels(const std::vector<MapPanel>& panels, const Result& result, const ColourScale& scale,
+                         const DrawnPoints& drawn) {
   std::string svg;
   for (const MapPanel& panel : panels) svg += panel_frame(panel, result.boxes);
-  for (const MapPanel& panel : panels) svg += panel_points(panel, result, scale);
+  for (const MapPanel& panel : panels) svg += panel_points(panel, result, scale, drawn);
   return svg;
 }
 
@@ -115,7 +116,7 @@ std::string mark_legend(double x, double y, const Result& result, const ColourSc
         Entry{PointState::pending, 0, "not decided yet"}, Entry{PointState::rejected, 0, "does not count"}}) {
     if (!has_state(result, entry.state)) continue;
     const std::size_t column = place % 2, row = place / 2;
-    const double left = x + 150.0 * static_cast<double>(column), top = y + 20.0 * static_cast<double>(row);
+    const double left = x + 175.0 * static_cast<double>(column), top = y + 20.0 * static_cast<double>(row);
     svg +=
         point_mark(entry.state, entry.distance, left, top, scale) + caption(left + 12, top + 4, entry.meaning) + "\n";
     ++place;
@@ -125,11 +126,11 @@ std::string mark_legend(double x, double y, const Result& result, const ColourSc
 
 }  // namespace
 
-std::string blade_map(const Result& result, const ColourScale& scale) {
+std::string blade_map(const Result& result, const ColourScale& scale, const DrawnPoints& drawn) {
   const std::vector<MapPanel> panels = place_panels(patches_of(result));
   const double bottom = bottom_of(panels);
   std::string svg = opening(bottom + kLegendHeight + 20, "Map of the unrolled blade: distance of every point") +
-                    drawn(panels, result, scale);
+                    drawn_panels(panels, result, scale, drawn);
   svg += colour_bar(kLeft, bottom + 24, scale, escaped(result.units));
   svg += mark_legend(kLeft + 330, bottom + 22, result, scale);
   if (!result.boxes.empty()) {
@@ -139,10 +140,11 @@ std::string blade_map(const Result& result, const ColourScale& scale) {
   return svg + "</svg>\n";
 }
 
-std::string leading_edge_map(const Result& result, const ColourScale& scale) {
+std::string leading_edge_map(const Result& result, const ColourScale& scale, const DrawnPoints& drawn) {
   const std::vector<MapPanel> panels = place_magnified(result);
   if (panels.empty()) return {};
-  return opening(bottom_of(panels), "Leading edge, magnified") + drawn(panels, result, scale) + "</svg>\n";
+  return opening(bottom_of(panels), "Leading edge, magnified") + drawn_panels(panels, result, scale, drawn) +
+         "</svg>\n";
 }
 
 }  // namespace bladefit

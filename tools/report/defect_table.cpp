@@ -20,8 +20,7 @@ std::string defect_row(const Result& result, std::size_t index) {
                                                            : fmt::format("<b class=\"{0}\">{1} {0}</b>",
                                                                          word_of(defect.action), cut ? "+" : "&minus;");
   const std::string side = side_text(defect.side);
-  const std::string place =
-      std::string(defect.region == Region::leading_edge ? "leading edge" : "rest") + (side.empty() ? "" : ", " + side);
+  const std::string place = readable(word_of(defect.region)) + (side.empty() ? "" : ", " + side);
   return fmt::format(
       "<tr><td><b>{}</b></td><td>{:.3f} to "
       "{:.3f}</td><td>{:.2f}</td><td>{}</td><td>{}</td><td><b>{}</b></td><td>{}</td>"

@@ -7,6 +7,7 @@
 #include "tools/report/html_report.hpp"
 #include "tools/report/json_report.hpp"
 #include "tools/report/pdf_report.hpp"
+#include "tools/report/qif_report.hpp"
 #include "tools/results/result.hpp"
 
 namespace bladefit {
@@ -19,12 +20,14 @@ struct ReportFormat {
 };
 
 /// All formats. A new one is a pair of files and a row here.
-inline constexpr std::array<ReportFormat, 4> kFormats{
+inline constexpr std::array<ReportFormat, 5> kFormats{
     {{"html", "one page to look at, print and send: verdict, defects, pictures, tables by radius and chord, settings",
       html_report},
      {"pdf", "the same as A4 pages, printed by Chromium or WeasyPrint, whichever is installed", pdf_report},
      {"csv", "one line a point, units in the names of the columns", csv_report},
-     {"json", "the result as `bladefit run` wrote it, checked", json_report}}};
+     {"json", "the result as `bladefit run` wrote it, checked", json_report},
+     {"qif", "QIF 3.0 (ISO 23952): a feature and a characteristic for each point, with measured places and status",
+      qif_report}}};
 
 /// The format of that name. Throws ToolError (bad_input) that names those there are.
 [[nodiscard]] const ReportFormat& format_of(std::string_view name);

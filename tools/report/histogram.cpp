@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tools/report/findings.hpp"
 #include "tools/report/picture_style.hpp"
 #include "tools/report/report_text.hpp"
 
@@ -49,7 +50,8 @@ Bins choose_bins(const Result& result) {
   for (double& size : sizes) size = std::abs(size);
   std::sort(sizes.begin(), sizes.end());
   double wide = sizes[sizes.size() * 9 / 10];
-  for (const double tolerance : {result.leading_edge.tolerance, result.rest.tolerance}) {
+  for (const double tolerance :
+       {judged_tolerance(result, Region::leading_edge), judged_tolerance(result, Region::rest)}) {
     if (std::isfinite(tolerance)) wide = std::max(wide, result.in_units(tolerance));
   }
   const double range = std::max({std::min(sizes.back(), kFarAway * wide), 1e-9});
@@ -118,7 +120,7 @@ std::string distance_histogram(const Result& result, const ColourScale& scale) {
     const double top = bottom + kPlotTop;
     bottom = top + kHeight;
     svg += bars(bins, distances, scale, bottom);
-    const double tolerance = (leading_edge ? result.leading_edge : result.rest).tolerance;
+    const double tolerance = judged_tolerance(result, region);
     svg += tolerance_lines(bins, result.in_units(tolerance), top);
     const auto beyond = std::count_if(distances.begin(), distances.end(),
                                       [&](double distance) { return std::abs(distance) > bins.limit(); });

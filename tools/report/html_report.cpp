@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tools/report/blade_map.hpp"
+#include "tools/report/chord_table.hpp"
 #include "tools/report/defect_table.hpp"
 #include "tools/report/findings.hpp"
 #include "tools/report/histogram.hpp"
@@ -10,13 +11,17 @@
 #include "tools/report/identity_table.hpp"
 #include "tools/report/report_style.hpp"
 #include "tools/report/report_text.hpp"
+#include "tools/report/section_views.hpp"
+#include "tools/report/side_views.hpp"
 #include "tools/report/spread_map.hpp"
+#include "tools/report/statements.hpp"
+#include "tools/report/tolerance_scale.hpp"
 #include "tools/results/words.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kDefectsOnFirstPage = 10, kMostDefects = 200;
+constexpr std::size_t kDefectsOnFirstPage = 8, kMostDefects = 200;
 
 const char* style_of(BladeState state) {
   if (state == BladeState::out_of_tolerance) return "bad";
@@ -53,6 +58,16 @@ std::string section(const char* title, const std::string& content) {
   return content.empty() ? content : fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, content);
 }
 
+/// A section that begins on a page of its own where it is printed.
+std::string page(const char* title, const std::string& content) {
+  return content.empty() ? content
+                         : fmt::format("<section class=\"page\">\n<h2>{}</h2>\n{}</section>\n", title, content);
+}
+
+std::string listed(const std::vector<std::string>& sentences) {
+  return sentences.empty() ? "" : sentence_list(sentences);
+}
+
 }  // namespace
 
 std::string html_report(const Result& result) {
@@ -63,15 +78,23 @@ std::string html_report(const Result& result) {
   std::string html = head(result) + "<body>\n<h1>Blade inspection report</h1>\n" + verdict_box(result);
   html += identity_table(result);
   html += section("Defects", defect_table(result, 0, kDefectsOnFirstPage));
-  html += section("Map of the blade", spread.empty() ? "" : spread + note_of(thinned_note(result, drawn)));
+  html += section("Map of the blade", spread.empty() ? "" : spread);
+  html += note_of(thinned_note(result, drawn));
+  html += page("Pressure and suction side", side_views(result, shares, drawn));
+  html += section("Leading edge at the measured radii", section_views(result, shares));
+  html += section("Distances by radius and chord", chord_tables(result));
   html += section("What was found", sentence_list(summary_sentences(result)));
-  html += section("More defects", defect_table(result, kDefectsOnFirstPage, kMostDefects));
-  html += section("Map of the unrolled blade", blade_map(result, scale));
-  if (spread.empty()) html += section("Leading edge, magnified", leading_edge_map(result, scale));
-  html += section("Points out of tolerance", out_table(result));
+  html += section("Certificate", listed(certificate_sentences(result)));
+  html += section("Uncertainty and decision", sentence_list(decision_sentences(result)));
+  html += section("Lost or not judged", sentence_list(omission_sentences(result)));
   html += section("Regions", region_table(result));
   html += section("Pose", pose_table(result));
+  html += section("More defects", defect_table(result, kDefectsOnFirstPage, kMostDefects));
+  html += section("Points out of tolerance", out_table(result));
   html += section("Distances", distance_histogram(result, scale));
+  html += section("Map in the parameters of the patches", blade_map(result, scale, drawn));
+  if (spread.empty()) html += section("Leading edge, magnified", leading_edge_map(result, scale, drawn));
+  html += section("Settings", settings_table(result));
   html += section("Files", files_table(result));
   return html + "</body>\n</html>\n";
 }

@@ -42,9 +42,10 @@ std::string tooltip(const ResultPoint& point, const Result& result) {
                      point.u, point.v);
 }
 
-std::vector<ResultPoint> drawn_points(const MapPanel& panel, const Result& result) {
+std::vector<ResultPoint> drawn_points(const MapPanel& panel, const Result& result, const DrawnPoints& drawn) {
   std::vector<ResultPoint> points;
-  for (const ResultPoint& point : result.points) {
+  for (const std::size_t index : drawn.indices) {
+    const ResultPoint point = result.points[index];
     if (lies_in(point, panel.part)) points.push_back(point);
   }
   std::stable_sort(points.begin(), points.end(), [](const ResultPoint& a, const ResultPoint& b) {
@@ -151,9 +152,10 @@ std::string point_mark(PointState state, double distance, double x, double y, co
          glyph(distance > 0, x, y, scale.is_dark(distance));
 }
 
-std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale) {
+std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale,
+                         const DrawnPoints& drawn) {
   std::string svg;
-  for (const ResultPoint& point : drawn_points(panel, result)) {
+  for (const ResultPoint& point : drawn_points(panel, result, drawn)) {
     const std::string mark =
         point_mark(point.state, result.in_units(point.distance), panel.x(point.u), panel.y(point.v), scale);
     svg += point.state == PointState::out ? fmt::format("<g>{}{}</g>\n", tooltip(point, result), mark) : mark + "\n";

@@ -30,7 +30,7 @@ th:first-child, td:first-child { text-align: left; }
 .points { font-size: 11.5px; } .points th, .points td { padding: 2px 4px; }
 .defects td, .defects th { padding: 2.5px 5px; } .defects td:nth-child(4), .defects th:nth-child(4),
 .defects td:nth-child(5), .defects th:nth-child(5) { text-align: left; }
-.chords { font-size: 10px; } .chords th, .chords td { padding: 2.5px 1px; text-align: center; }
+.chords { font-size: 10px; table-layout: fixed; } .chords th, .chords td { padding: 2.5px 1px; text-align: center; }
 .chords td:first-child, .chords th:first-child { text-align: left; font-weight: 600; }
 .ring { border: 1.5px solid #b34700; border-radius: 9px; padding: 0 2px; font-weight: 700; }
 .ring.minus { border-color: #084081; border-style: dashed; }
@@ -44,7 +44,7 @@ constexpr const char* kPrintStyle = R"(
 @media print { body { margin: 0; padding: 0; max-width: none; font-size: 9.6pt; print-color-adjust: exact;
   -webkit-print-color-adjust: exact; }
   table { font-size: 8.3pt; } .points { font-size: 7.4pt; } .chords { font-size: 6.8pt; } .note, .session { font-size: 8pt; }
-  .sum { font-size: 6.8pt; } svg, tr, .headline, .keep { break-inside: avoid; } h2, h3 { break-after: avoid; }
+  .sum { font-size: 6.8pt; } svg, tr, .headline, .keep, table.identity, table.defects, table.regions { break-inside: avoid; } h2, h3 { break-after: avoid; }
   thead { display: table-header-group; } .page { break-before: page; } }
 )";
 

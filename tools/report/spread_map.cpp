@@ -15,7 +15,7 @@
 namespace bladefit {
 namespace {
 
-constexpr double kMapWidth = 720, kMapLeft = 44, kMapRight = 12, kMapTop = 22, kMapHeight = 330, kMapBottom = 38;
+constexpr double kMapWidth = 720, kMapLeft = 44, kMapRight = 12, kMapTop = 22, kMapHeight = 265, kMapBottom = 38;
 constexpr std::size_t kDefectsNamed = 16;
 
 /// Where r/R and the share of the chord are drawn; two sides or, where they are not known, one.
