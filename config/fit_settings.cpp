@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "config/fit_table.hpp"
+#include "config/report_identity.hpp"
 
 namespace bladefit {
 
@@ -12,6 +13,8 @@ Failure load_fit(const std::string& path, FitSettings& settings) {
   FitSettings read = settings;
   TableReader root(document, document.root, "");
   if (std::optional<TableReader> fit = root.table("fit")) read_fit_table(*fit, read);
+  ReportIdentity checked;
+  if (std::optional<TableReader> report = root.table("report")) read_report_table(*report, checked);
   root.finish();
   if (!document.error) settings = std::move(read);
   return document.error;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "config/fit_option.hpp"
+#include "config/report_identity.hpp"
 
 namespace bladefit {
 namespace {
@@ -29,6 +30,14 @@ std::string comment(std::string_view text) {
   return out + "\n";
 }
 
+/// The table [report], whose texts are those of an example.
+std::string report_toml() {
+  std::string text =
+      "\n# What reports say of the blade, and further names with their texts. Every key may be left out.\n[report]\n";
+  for (const IdentityRow& row : kIdentityRows) text += fmt::format("# {} = \"\"\n", row.key);
+  return text + "\n[report.fields]\n# \"heat number\" = \"\"\n";
+}
+
 }  // namespace
 
 std::string fit_toml() {
@@ -39,7 +48,7 @@ std::string fit_toml() {
     text += "\n" + comment(option.help);
     text += fmt::format("{}{} = {}\n", option.active ? "" : "# ", option.key, option.example);
   }
-  return text;
+  return text + report_toml();
 }
 
 }  // namespace bladefit

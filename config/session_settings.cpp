@@ -100,6 +100,7 @@ Failure load_session(const std::string& path, SessionSettings& settings) {
   read_plan(root, read.plan);
   if (std::optional<TableReader> fit = root.table("fit")) read_fit_table(*fit, read.fit);
   if (std::optional<TableReader> panel = root.table("panel")) read_panel(*panel, read.panel);
+  if (std::optional<TableReader> report = root.table("report")) read_report_table(*report, read.report);
   root.finish();
   if (!document.error) settings = std::move(read);
   return document.error;

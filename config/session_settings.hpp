@@ -6,6 +6,7 @@
 
 #include "config/fit_settings.hpp"
 #include "config/point_plan.hpp"
+#include "config/report_identity.hpp"
 #include "drivers/source/failure.hpp"
 
 namespace bladefit {
@@ -36,6 +37,7 @@ struct SessionSettings {
   std::optional<PointPlan> plan;          ///< of the points that will come
   FitSettings fit;
   PanelSettings panel;
+  ReportIdentity report;  ///< what reports say of the blade
 };
 
 /// Reads a TOML file such as config/session.toml into `settings`.

@@ -115,6 +115,12 @@ const toml::node* TableReader::find(std::string_view key) {
 
 bool TableReader::has(std::string_view key) { return find(key) != nullptr; }
 
+std::vector<std::string> TableReader::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : *table_) keys.emplace_back(key.str());
+  return keys;
+}
+
 bool TableReader::has_text(std::string_view key) {
   const toml::node* node = find(key);
   return node != nullptr && node->is_string();

@@ -109,6 +109,9 @@ class TableReader {
   /// Whether the key is there. It counts as asked for.
   [[nodiscard]] bool has(std::string_view key);
 
+  /// All keys of the table, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> keys() const;
+
   /// Whether the key is there and holds a text.
   [[nodiscard]] bool has_text(std::string_view key);
 

@@ -10,13 +10,17 @@
 
 #include "drivers/replay/points_csv.hpp"
 #include "drivers/text/read_file.hpp"
+#include "firmware_bridge/host/journal/session_settings_file.hpp"
 #include "tools/batch/batch_fit.hpp"
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/design_notes.hpp"
 #include "tools/commands/fit_flags.hpp"
+#include "tools/commands/report_record_of.hpp"
 #include "tools/commands/volume_flags.hpp"
+#include "tools/drawing/add_drawing.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/read_text.hpp"
+#include "tools/report/formats.hpp"
 #include "tools/results/json_writer.hpp"
 #include "tools/results/operator_summary.hpp"
 
@@ -25,7 +29,7 @@ namespace {
 
 struct LocalizeFlags {
   Volume volume;
-  std::string design, points, subset, json, config, starts;
+  std::string design, points, subset, json, config, starts, report;
   FitSettings fit;
 };
 
@@ -77,14 +81,40 @@ std::vector<ProbePoint> read_points(const LocalizeFlags& flags, FitPlan& plan) {
   return file.points;
 }
 
-/// The result must not take the place of anything it is made from.
-void check_result_file(const LocalizeFlags& flags, const FitSettings& settings) {
-  if (flags.json == "-") return;
-  refuse_overwriting(flags.json, "design", flags.design);
-  refuse_overwriting(flags.json, "points", flags.points);
-  refuse_overwriting(flags.json, "subset", flags.subset);
-  refuse_overwriting(flags.json, "settings", flags.config);
-  refuse_overwriting(flags.json, "start pairs", start_file_of(settings));
+/// What is written must not take the place of anything it is made from.
+void check_output_file(const std::string& output, const LocalizeFlags& flags, const FitSettings& settings) {
+  if (output == "-") return;
+  refuse_overwriting(output, "design", flags.design);
+  refuse_overwriting(output, "points", flags.points);
+  refuse_overwriting(output, "subset", flags.subset);
+  refuse_overwriting(output, "settings", flags.config);
+  refuse_overwriting(output, "start pairs", start_file_of(settings));
+}
+
+/// Everything wrong with the outputs is said before the fit.
+void check_outputs(const LocalizeFlags& flags, const FitSettings& settings) {
+  check_output_file(flags.json, flags, settings);
+  if (flags.report.empty()) return;
+  check_output_file(flags.report, flags, settings);
+  refuse_overwriting(flags.report, "copy of the result", flags.json);
+  static_cast<void>(format_of_file(flags.report));
+}
+
+/// Adds what reports have beside the result, and writes the one that is asked for.
+void write_report(const LocalizeFlags& flags, const FitPlan& plan, const DesignImage& design, std::string begun,
+                  Result& result) {
+  ReportIdentity identity;
+  if (!flags.config.empty()) {
+    if (const Failure error = load_report_identity(flags.config, identity)) throw ToolError(error);
+  }
+  result.record = report_record_of(
+      identity,
+      {{"design", flags.design}, {"points", flags.points}, {"subset", flags.subset}, {"settings", flags.config}});
+  result.record->begun = std::move(begun);
+  result.record->ended = result.written = utc_now();
+  result.settings = named_settings(settings_text(plan.localizer, 0));
+  add_drawing(design, result);
+  write_output(flags.report, format_of_file(flags.report).text_of(result));
 }
 
 int localize(const LocalizeFlags& flags) {
@@ -93,7 +123,8 @@ int localize(const LocalizeFlags& flags) {
     if (const Failure error = load_fit(flags.config, from_file)) throw ToolError(error);
   }
   const FitSettings settings = merged(flags.fit, from_file);
-  check_result_file(flags, settings);
+  check_outputs(flags, settings);
+  const std::string begun = utc_now();
   const bool json_on_stdout = flags.json == "-";
   std::FILE* words = json_on_stdout ? stderr : stdout;
   StepClock clock(flags.volume, words);
@@ -110,16 +141,18 @@ int localize(const LocalizeFlags& flags) {
     tell_notes(loaded, words);
     fmt::print(words, "{}", plan.note);
   }
-  const BatchFit batch = fit_points(design, plan, points, file_name(flags.points));
+  BatchFit batch = fit_points(design, plan, points, file_name(flags.points));
   clock.done("points fitted and judged");
-  const Result& result = batch.result;
+  Result& result = batch.result;
   if (!flags.starts.empty() && !flags.volume.quiet) {
     fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", batch.wrong_starts, points.size(),
                batch.wrong_starts > 0 ? "; fitted again from searched ones" : "");
   }
   if (!flags.json.empty()) write_output(flags.json, result_json(result));
+  if (!flags.report.empty()) write_report(flags, plan, design, begun, result);
   fmt::print(words, "{}", told_of(operator_summary(result), flags.volume));
   if (!flags.json.empty() && !json_on_stdout && !flags.volume.quiet) fmt::print(words, "Written: {}\n", flags.json);
+  if (!flags.report.empty() && !flags.volume.quiet) fmt::print(words, "Written: {}\n", flags.report);
   return exit_code_of(result);
 }
 
@@ -144,8 +177,13 @@ void add_localize_command(CLI::App& app, int& exit_code) {
   command->add_option(
       "--json", flags->json,
       "write result.json here; - writes it to standard output; its indices count points from 0, the words from 1");
-  command->add_option("--config", flags->config,
-                      "TOML with a [fit] table (see config/fit.toml); options given here win over it");
+  command->add_option(
+      "--report", flags->report,
+      fmt::format("write a report; the end of its name says as what: .{}", format_names(", .", " or .")));
+  command->add_option(
+      "--config", flags->config,
+      "TOML with a [fit] table, and a [report] table of what reports say of the blade (see config/fit.toml); options "
+      "given here win over it");
   command->add_option(
       "--starts", flags->starts,
       "how the first foot of each point is found; the answer is the same, since all feet are proven by searches at the "

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "firmware_bridge/host/journal/session_file_names.hpp"
+#include "tools/drawing/add_drawing.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/tool_error.hpp"
 #include "tools/report/formats.hpp"
@@ -29,12 +30,12 @@ std::string report_help() {
 Example:
   bladefit report session --format html -o blade.html
 
-Exit codes: 0 done, 2 wrong use or a session that cannot be reported, 3 the report cannot be written.)";
+Exit codes: 0 done, 2 wrong use or a session that cannot be reported, 3 the report cannot be written (for pdf\nalso: there is nothing that prints a page).)";
 }
 
 /// The report must not take the place of what it is made from.
 void check_output(const ReportOptions& options) {
-  for (const char* name : {kResultFile, kVerdictsFile, kJournalFile}) {
+  for (const char* name : {kResultFile, kVerdictsFile, kJournalFile, kSettingsFile, kRecordFile, kDesignFile}) {
     std::error_code error;
     if (std::filesystem::equivalent(options.output, std::filesystem::path(options.session) / name, error)) {
       throw ToolError(fmt::format("{}: the report would overwrite the session; give another name", options.output));
@@ -42,10 +43,20 @@ void check_output(const ReportOptions& options) {
   }
 }
 
+/// The session as reports show it: with what its design lets draw.
+Result session_result(const std::string& directory) {
+  Result result = read_session(directory);
+  result.written = utc_now();
+  const std::vector<std::byte> image = read_session_design(directory, *result.identity);
+  DesignImage design;
+  if (!image.empty() && DesignImage::open(image, design) == Status::ok) add_drawing(design, result);
+  return result;
+}
+
 void report(const ReportOptions& options) {
   const ReportFormat& format = format_of(options.format);
   check_output(options);
-  write_output(options.output, format.text_of(read_session(options.session)));
+  write_output(options.output, format.text_of(session_result(options.session)));
   if (options.output != "-") fmt::print("Written: {}\n", options.output);
 }
 

@@ -1,12 +1,8 @@
 #include "tools/commands/run_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -16,17 +12,14 @@
 #include "drivers/make_source.hpp"
 #include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
-#include "tools/batch/batch_fit.hpp"
 #include "tools/commands/design_notes.hpp"
 #include "tools/commands/fit_flags.hpp"
+#include "tools/commands/run_conclusion.hpp"
 #include "tools/commands/run_plan.hpp"
 #include "tools/commands/run_stop_flag.hpp"
 #include "tools/files/exit_codes.hpp"
 #include "tools/files/message.hpp"
-#include "tools/files/output_file.hpp"
 #include "tools/panel/panel_display.hpp"
-#include "tools/results/json_writer.hpp"
-#include "tools/results/operator_summary.hpp"
 #include "tools/results/session_files.hpp"
 #include "tools/web/design_json.hpp"
 #include "tools/web/web_access.hpp"
@@ -62,8 +55,6 @@ class Notices {
   std::mutex mutex_;
   std::vector<std::string> waiting_;
 };
-
-int exit_code_of(const Failure& failure) { return ToolError(failure).exit_code(); }
 
 /// Where others find the panel of this session.
 std::string panel_address(const RunPlan& plan, const Host& host) {
@@ -116,99 +107,6 @@ void linger(const RunPlan& plan, const StopFlag& stop, std::uint16_t port, std::
   while (!stop.requested() && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(kTurn);
 }
 
-/// The points of the ended session.
-struct SessionPoints : JudgedPoints {
-  void add(const ProbePoint& point, const Verdict& verdict) override { rows.push_back({point, verdict}); }
-  void clear() override { rows.clear(); }
-  Rows<JudgedPoint> rows;
-};
-
-std::string ending(const SessionResult& session, std::size_t points) {
-  switch (session.end) {
-    case SessionEnd::finished:
-      return "the machine's program is finished";
-    case SessionEnd::idle:
-      return "no new point came";
-    case SessionEnd::stopped:
-      return "stopped";
-    case SessionEnd::running:
-    case SessionEnd::failed:
-      break;
-  }
-  return fmt::format("by a fault; what follows is of the {} points stored before it", points);
-}
-
-/// Where the words for the user go.
-struct Words {
-  explicit Words(std::FILE* to) : file(to), terminal(isatty(fileno(to)) == 1) {}
-  std::FILE* file;
-  bool terminal;
-};
-
-/// Tells the end of the session. Returns false where the output fails; one that nobody reads any more, a pipe or a
-/// terminal that is gone, was given up by its reader, and is none of our failures.
-bool tell_summary(const Words& words, const std::string& text, const RunPlan& plan) {
-  std::clearerr(words.file);
-  errno = 0;
-  const bool told = std::fputs(text.c_str(), words.file) >= 0 && std::fflush(words.file) == 0;
-  if (told) return true;
-  const int reason = errno;
-  tell(fmt::format("the summary cannot be written ({}); the result is in {}", std::strerror(reason),
-                   plan.host.session_directory));
-  const bool given_up = reason == EPIPE || (words.terminal && reason == EIO);
-  if (given_up) std::clearerr(words.file);
-  return given_up;
-}
-
-WrittenFiles write_files(const RunPlan& plan, const Result& result) {
-  WrittenFiles files = write_session_files(plan.host.session_directory, result);
-  if (plan.json.empty()) return files;
-  const auto json = [&result](const Put& put) { write_result_json(result, put); };
-  add_written(
-      plan.json, [&] { write_output(plan.json, json); }, files);
-  return files;
-}
-
-/// What the panel goes on showing.
-Conclusion conclusion_of(const Result& result) {
-  Conclusion conclusion{{result.verdict.state, result.verdict.codes()}};
-  conclusion.otherwise_count = static_cast<std::uint32_t>(result.judged_otherwise.size());
-  const std::size_t listed = std::min(result.judged_otherwise.size(), conclusion.otherwise.size());
-  std::copy_n(result.judged_otherwise.begin(), listed, conclusion.otherwise.begin());
-  return conclusion;
-}
-
-/// Writes what the session came to, also after a fault: then of the points stored before it. Whatever cannot be written
-/// keeps nothing else from it.
-int conclude(const RunPlan& plan, Host& host, const Words& words) {
-  SessionPoints points;
-  const SessionResult session = host.finish(points);
-  if (session.error) tell(session.error.message);
-  // A session that was refused is not this run's to report on.
-  const bool refused = session.error.kind == Failure::Kind::bad_input;
-  if (session.error && (refused || points.rows.empty())) return exit_code_of(session.error);
-  const StreamEvidence stream{session.lost, session.losses.unnumbered(), session.refused, session.losses.finished()};
-  if (points.rows.empty()) {
-    throw ToolError(
-        fmt::format("the session in {} has no point that can be used: nothing can be said of the blade; "
-                    "check that the machine's program is running",
-                    plan.host.session_directory));
-  }
-  const Result result =
-      result_of(plan.image, plan.fit, points.rows, session.report, stream, plan.host.session_directory);
-  host.conclude(conclusion_of(result));
-  const WrittenFiles files = write_files(plan, result);
-  std::string text = told_of(operator_summary(result), plan.volume);
-  if (!plan.volume.quiet) text.insert(0, fmt::format("Session ended: {}\n", ending(session, points.rows.size())));
-  for (const std::string& path : files.paths)
-    text += path == "-" || plan.volume.quiet ? "" : fmt::format("Written: {}\n", path);
-  const bool told = tell_summary(words, text, plan);
-  for (const Failure& failure : files.failures) tell(failure.message);
-  if (session.error) return exit_code_of(session.error);
-  if (!files.failures.empty()) return exit_code_of(files.failures.front());
-  return told ? exit_code_of(result) : kDeviceFailure;
-}
-
 /// Removes what killed runs left of the files of this one. The session is locked: nobody else writes them now.
 std::vector<std::string> stray_parts(const RunPlan& plan) {
   std::vector<std::string> parts = remove_stray_session_files(plan.host.session_directory);
@@ -218,9 +116,30 @@ std::vector<std::string> stray_parts(const RunPlan& plan) {
   return parts;
 }
 
+/// Writes what reports of the session will need, so that they have it also where this run is killed. Whatever cannot be
+/// written is told, and keeps the session from nothing.
+ReportRecord begin_record(const RunPlan& plan) {
+  const std::string& directory = plan.host.session_directory;
+  ReportRecord record;
+  const auto part = [](const auto& step) {
+    try {
+      step();
+    } catch (const ToolError& error) {
+      tell(error.what());
+    }
+  };
+  part([&] { record = report_record_of(plan.report, plan.files); });
+  part([&] {
+    if (const auto before = read_session_record(directory)) record = resumed(*before, record);
+  });
+  part([&] { write_session_record(directory, record); });
+  part([&] { write_session_design(directory, plan.design.image); });
+  return record;
+}
+
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
-  const Words words(plan.json == "-" ? stderr : stdout);
+  const RunWords words(plan.json == "-" ? stderr : stdout);
   StepClock clock(plan.volume, words.file);
   if (!plan.volume.quiet) {
     tell_notes(plan.design, words.file);
@@ -236,6 +155,7 @@ int run(const RunFlags& flags) {
   open_web(plan, host, web);
   for (const std::string& part : stray_parts(plan))
     tell(fmt::format("{}: left by a run that was killed; removed", part));
+  const ReportRecord record = begin_record(plan);
   const std::string begun = fmt::format("Points from {}, session in {}, panel at {}{}\n", source_name(plan.source),
                                         plan.host.session_directory, panel_address(plan, host), web_address(plan, web));
   if (!plan.volume.quiet) std::fputs(begun.c_str(), words.file);
@@ -244,7 +164,7 @@ int run(const RunFlags& flags) {
   watch(host, plan, stop);
   clock.done("points taken");
   notices.flush();
-  const int exit_code = conclude(plan, host, words);
+  const int exit_code = conclude_run(plan, host, words, record);
   clock.done("result written");
   if (exit_code != kBadInput) linger(plan, stop, host.panel_port(), words.file);
   return exit_code;

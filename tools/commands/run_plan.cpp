@@ -3,7 +3,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -157,6 +156,17 @@ std::uint32_t planned_points(const PointPlan& plan, const PointsFormat& format) 
   return static_cast<std::uint32_t>(file.points.size());
 }
 
+/// The files that a session is made from, each with what it is.
+FileRoles inputs_of(const RunFlags& flags, const SessionSettings& session, const SourceSettings& source) {
+  const auto* const replay = std::get_if<ReplaySettings>(&source);
+  return {{"design", session.design.value_or("")},
+          {"session file", flags.config},
+          {"device file", session.device.value_or("")},
+          {"start pairs", start_file_of(session.fit)},
+          {"planned points", session.plan.value_or(PointPlan{}).file},
+          {"recording", replay != nullptr ? replay->file : ""}};
+}
+
 /// Nothing that is written may take the place of what is read, nor the copy of the result that of a file of the
 /// session. In the place of the session's own result.json it does no harm.
 void check_outputs(const RunFlags& flags, const SessionSettings& session, const RunPlan& plan) {
@@ -165,17 +175,11 @@ void check_outputs(const RunFlags& flags, const SessionSettings& session, const 
   refuse_overwriting(copy, "journal of the session", folder / kJournalFile);
   refuse_overwriting(copy, "settings of the session", folder / kSettingsFile);
   refuse_overwriting(copy, "verdicts of the session", folder / kVerdictsFile);
-  const auto* const replay = std::get_if<ReplaySettings>(&plan.source);
-  const std::array<std::pair<const char*, std::string>, 6> inputs{
-      {{"design", session.design.value_or("")},
-       {"session file", flags.config},
-       {"device file", session.device.value_or("")},
-       {"start pairs", start_file_of(session.fit)},
-       {"planned points", session.plan.value_or(PointPlan{}).file},
-       {"recording", replay != nullptr ? replay->file : ""}}};
-  for (const auto& [what, input] : inputs) {
+  refuse_overwriting(copy, "record of the session", folder / kRecordFile);
+  refuse_overwriting(copy, "design of the session", folder / kDesignFile);
+  for (const auto& [what, input] : inputs_of(flags, session, plan.source)) {
     refuse_overwriting(copy, what, input);
-    for (const char* name : {kJournalFile, kSettingsFile, kVerdictsFile, kResultFile})
+    for (const char* name : {kJournalFile, kSettingsFile, kVerdictsFile, kResultFile, kRecordFile, kDesignFile})
       refuse_overwriting(folder / name, what, input);
   }
 }
@@ -220,6 +224,8 @@ RunPlan plan_run(const RunFlags& flags) {
   const bool recording = std::holds_alternative<ReplaySettings>(plan.source);
   plan.host.end_when_finished = recording || plan.headless || session.until_idle.has_value();
   check_outputs(flags, session, plan);
+  plan.report = session.report;
+  plan.files = inputs_of(flags, session, plan.source);
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include "drivers/source_settings.hpp"
 #include "firmware_bridge/host/host.hpp"
 #include "tools/batch/fit_options.hpp"
+#include "tools/commands/report_record_of.hpp"
 #include "tools/commands/volume_flags.hpp"
 #include "tools/web/web_settings.hpp"
 
@@ -33,6 +34,8 @@ struct RunPlan {
   bool headless = false;
   std::chrono::milliseconds linger{0};  ///< that the panel stays with the result
   std::string json;
+  ReportIdentity report;  ///< what reports say of the blade
+  FileRoles files;        ///< that the session rests on
   Volume volume;
 };
 

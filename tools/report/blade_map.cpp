@@ -7,13 +7,14 @@
 #include <set>
 
 #include "tools/report/map_panel.hpp"
+#include "tools/report/picture_style.hpp"
 #include "tools/report/report_text.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr double kWidth = 1080, kLeft = 46, kTop = 24, kBottom = 36, kGap = 60, kRight = 14;
-constexpr double kOneHeight = 430, kSmallHeight = 320, kLegendHeight = 48;
+constexpr double kWidth = 720, kLeft = 46, kTop = 24, kBottom = 36, kGap = 60, kRight = 14;
+constexpr double kOneHeight = 330, kSmallHeight = 230, kLegendHeight = 92;
 constexpr std::size_t kMostColumns = 3;
 
 std::set<std::uint32_t> patches_of(const Result& result) {
@@ -57,13 +58,15 @@ double bottom_of(const std::vector<MapPanel>& panels) {
 }
 
 std::string opening(double height, const char* label) {
-  return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n", kWidth, height, label);
+  return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n{}", kWidth, height, label,
+                     kPictureStyle);
 }
 
-std::string drawn(const std::vector<MapPanel>& panels, const Result& result, const ColourScale& scale) {
+std::string drawn_panels(const std::vector<MapPanel>& panels, const Result& result, const ColourScale& scale,
+                         const DrawnPoints& drawn) {
   std::string svg;
   for (const MapPanel& panel : panels) svg += panel_frame(panel, result.boxes);
-  for (const MapPanel& panel : panels) svg += panel_points(panel, result, scale);
+  for (const MapPanel& panel : panels) svg += panel_points(panel, result, scale, drawn);
   return svg;
 }
 
@@ -74,7 +77,7 @@ std::string caption(double x, double y, const std::string& text, const char* anc
 /// A bar of the colours with the distances they mean.
 std::string colour_bar(double x, double y, const ColourScale& scale, const std::string& units) {
   constexpr int kCells = 40;
-  constexpr double kBarWidth = 400, kBarHeight = 14;
+  constexpr double kBarWidth = 290, kBarHeight = 14;
   std::string svg;
   for (int k = 0; k < kCells; ++k) {
     const double distance = scale.limit * ((2.0 * k + 1.0) / kCells - 1.0);
@@ -109,11 +112,11 @@ std::string mark_legend(double x, double y, const Result& result, const ColourSc
   std::size_t place = 0;
   for (const Entry& entry :
        {Entry{PointState::out, full, "out: cut"}, Entry{PointState::out, -full, "out: weld"},
-        Entry{PointState::in, 0.4 * full, "in tolerance or not judged"},
+        Entry{PointState::in, 0.4 * full, "in tolerance or not judged"}, Entry{PointState::undecided, 0, "undecided"},
         Entry{PointState::pending, 0, "not decided yet"}, Entry{PointState::rejected, 0, "does not count"}}) {
     if (!has_state(result, entry.state)) continue;
     const std::size_t column = place % 2, row = place / 2;
-    const double left = x + 110.0 * static_cast<double>(column), top = y + 20.0 * static_cast<double>(row);
+    const double left = x + 175.0 * static_cast<double>(column), top = y + 20.0 * static_cast<double>(row);
     svg +=
         point_mark(entry.state, entry.distance, left, top, scale) + caption(left + 12, top + 4, entry.meaning) + "\n";
     ++place;
@@ -123,25 +126,25 @@ std::string mark_legend(double x, double y, const Result& result, const ColourSc
 
 }  // namespace
 
-std::string blade_map(const Result& result, const ColourScale& scale) {
+std::string blade_map(const Result& result, const ColourScale& scale, const DrawnPoints& drawn) {
   const std::vector<MapPanel> panels = place_panels(patches_of(result));
   const double bottom = bottom_of(panels);
   std::string svg = opening(bottom + kLegendHeight + 20, "Map of the unrolled blade: distance of every point") +
-                    drawn(panels, result, scale);
+                    drawn_panels(panels, result, scale, drawn);
   svg += colour_bar(kLeft, bottom + 24, scale, escaped(result.units));
-  svg += mark_legend(kLeft + 450, bottom + 22, result, scale);
+  svg += mark_legend(kLeft + 330, bottom + 22, result, scale);
   if (!result.boxes.empty()) {
-    svg += fmt::format("<rect class=\"edge\" x=\"{}\" y=\"{:.1f}\" width=\"22\" height=\"14\"/>", kLeft + 850,
-                       bottom + 15);
-    svg += caption(kLeft + 880, bottom + 26, "leading-edge region");
+    svg += fmt::format("<rect class=\"edge\" x=\"{}\" y=\"{:.1f}\" width=\"22\" height=\"14\"/>", kLeft, bottom + 62);
+    svg += caption(kLeft + 30, bottom + 73, "leading-edge region");
   }
   return svg + "</svg>\n";
 }
 
-std::string leading_edge_map(const Result& result, const ColourScale& scale) {
+std::string leading_edge_map(const Result& result, const ColourScale& scale, const DrawnPoints& drawn) {
   const std::vector<MapPanel> panels = place_magnified(result);
   if (panels.empty()) return {};
-  return opening(bottom_of(panels), "Leading edge, magnified") + drawn(panels, result, scale) + "</svg>\n";
+  return opening(bottom_of(panels), "Leading edge, magnified") + drawn_panels(panels, result, scale, drawn) +
+         "</svg>\n";
 }
 
 }  // namespace bladefit

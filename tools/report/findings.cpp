@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tools/report/report_text.hpp"
 #include "tools/results/words.hpp"
@@ -58,7 +59,7 @@ std::string out_sentence(const Result& result, const RegionFindings& found) {
 std::string region_sentence(const Result& result, Region region) {
   const bool leading_edge = region == Region::leading_edge;
   const RegionFindings found = findings_of(result, region);
-  const double tolerance = (leading_edge ? result.leading_edge : result.rest).tolerance;
+  const double tolerance = judged_tolerance(result, region);
   std::string text =
       fmt::format("{}: {}, ", leading_edge ? "Leading edge" : "Rest of the blade", counted(found.points, "point"));
   if (!std::isfinite(tolerance)) return text + "no tolerance was set: not judged.";
@@ -82,6 +83,17 @@ RegionFindings findings_of(const Result& result, Region region) {
     if (!found.worst_out || std::abs(point.distance) > std::abs(found.worst_out->distance)) found.worst_out = point;
   }
   return found;
+}
+
+double judged_tolerance(const Result& result, Region region) {
+  if (result.mode != word_of(FitMode::min_tolerance))
+    return (region == Region::leading_edge ? result.leading_edge : result.rest).tolerance;
+  std::optional<double> widest;  // where a zone lies between the regions the rest's own is the widest
+  for (const ResultPoint& point : result.points) {
+    if (point.region == region && point.state != PointState::rejected)
+      widest = std::max(widest.value_or(point.tolerance), point.tolerance);
+  }
+  return widest.value_or(std::numeric_limits<double>::infinity());
 }
 
 std::uint32_t rejected_points(const Result& result) {
@@ -136,8 +148,6 @@ std::string headline(const Result& result) {
 
 std::vector<std::string> summary_sentences(const Result& result) {
   std::vector<std::string> sentences;
-  for (const VerdictReason& reason : result.verdict.reasons)
-    sentences.push_back(fmt::format("{}: {}.", readable(word_of(reason.code)), reason.text));
   sentences.push_back(points_sentence(result));
   sentences.push_back(fit_sentence(result));
   for (const Region region : {Region::leading_edge, Region::rest}) {

@@ -21,6 +21,10 @@ struct RegionFindings {
 
 [[nodiscard]] RegionFindings findings_of(const Result& result, Region region);
 
+/// The tolerance by which points of a region were judged [mm]; infinity = not judged. In min_tolerance that of the
+/// result is the one that was found.
+[[nodiscard]] double judged_tolerance(const Result& result, Region region);
+
 /// Points that are not judged.
 [[nodiscard]] std::uint32_t rejected_points(const Result& result);
 

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <vector>
 
+#include "tools/report/findings.hpp"
+#include "tools/report/picture_style.hpp"
 #include "tools/report/report_text.hpp"
 
 namespace bladefit {
 namespace {
 
-constexpr double kPlotWidth = 1080, kPlotLeft = 56, kPlotRight = 16, kPlotTop = 26, kHeight = 130, kPlotBottom = 40;
+constexpr double kPlotWidth = 720, kPlotLeft = 56, kPlotRight = 16, kPlotTop = 26, kHeight = 130, kPlotBottom = 40;
 constexpr double kWantedBins = 40;
 constexpr double kLeastBar = 2;  // so that a single point among thousands is seen
 constexpr double kFarAway = 4;   // times the distance that nine of ten points keep to, or the widest tolerance
@@ -48,7 +50,8 @@ Bins choose_bins(const Result& result) {
   for (double& size : sizes) size = std::abs(size);
   std::sort(sizes.begin(), sizes.end());
   double wide = sizes[sizes.size() * 9 / 10];
-  for (const double tolerance : {result.leading_edge.tolerance, result.rest.tolerance}) {
+  for (const double tolerance :
+       {judged_tolerance(result, Region::leading_edge), judged_tolerance(result, Region::rest)}) {
     if (std::isfinite(tolerance)) wide = std::max(wide, result.in_units(tolerance));
   }
   const double range = std::max({std::min(sizes.back(), kFarAway * wide), 1e-9});
@@ -117,7 +120,7 @@ std::string distance_histogram(const Result& result, const ColourScale& scale) {
     const double top = bottom + kPlotTop;
     bottom = top + kHeight;
     svg += bars(bins, distances, scale, bottom);
-    const double tolerance = (leading_edge ? result.leading_edge : result.rest).tolerance;
+    const double tolerance = judged_tolerance(result, region);
     svg += tolerance_lines(bins, result.in_units(tolerance), top);
     const auto beyond = std::count_if(distances.begin(), distances.end(),
                                       [&](double distance) { return std::abs(distance) > bins.limit(); });
@@ -127,8 +130,8 @@ std::string distance_histogram(const Result& result, const ColourScale& scale) {
     svg += axis(bins, bottom, title);
     bottom += kPlotBottom;
   }
-  return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"Histogram of distances\">\n{}</svg>\n",
-                     kPlotWidth, bottom, svg);
+  return fmt::format("<svg viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"Histogram of distances\">\n{}{}</svg>\n",
+                     kPlotWidth, bottom, kPictureStyle, svg);
 }
 
 }  // namespace bladefit

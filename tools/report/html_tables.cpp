@@ -13,7 +13,7 @@
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kMostRows = 1000;
+constexpr std::size_t kMostRows = 60;
 constexpr double kDegreesPerRadian = 57.295779513082320877;
 
 std::string cells(const std::vector<std::string>& texts, const char* tag = "td") {
@@ -26,11 +26,12 @@ std::string region_row(const Result& result, Region region) {
   const bool leading_edge = region == Region::leading_edge;
   const RegionDistances& sums = leading_edge ? result.leading_edge : result.rest;
   const RegionFindings found = findings_of(result, region);
+  const double tolerance = judged_tolerance(result, region);
   const LengthText text(result);
   return cells({leading_edge ? "Leading edge" : "Rest of the blade", fmt::format("{}", sums.count),
-                std::isfinite(sums.tolerance) ? "±" + text.plain(sums.tolerance) : "not judged",
-                text.plain(sums.rms_before), text.plain(sums.rms_after), text.plain(sums.max_after),
-                fmt::format("{}", found.cut), fmt::format("{}", found.weld), fmt::format("{}", found.pending)});
+                std::isfinite(tolerance) ? "±" + text.plain(tolerance) : "not judged", text.plain(sums.rms_before),
+                text.plain(sums.rms_after), text.plain(sums.max_after), fmt::format("{}", found.cut),
+                fmt::format("{}", found.weld), fmt::format("{}", found.pending)});
 }
 
 std::string out_row(const Result& result, const ResultPoint& point) {
@@ -51,9 +52,10 @@ std::string out_row(const Result& result, const ResultPoint& point) {
 
 std::string region_table(const Result& result) {
   const LengthText text(result);
-  std::string html = "<table>\n<thead>";
-  html += cells({"Region", "Points in the fit", "Tolerance", "RMS before", "RMS after", "Largest", "To cut", "To weld",
-                 "Not decided"},
+  const std::string unit = ", " + escaped(result.units);
+  std::string html = "<table class=\"regions\">\n<thead>";
+  html += cells({"Region", "Points in the fit", "Tolerance" + unit, "RMS before" + unit, "RMS after" + unit,
+                 "Largest" + unit, "To cut", "To weld", "Not decided"},
                 "th");
   html += "</thead>\n<tbody>" + region_row(result, Region::leading_edge) + region_row(result, Region::rest);
   html += cells({"All", fmt::format("{}", result.all.count), "", text.plain(result.all.rms_before),
@@ -70,7 +72,7 @@ std::string pose_table(const Result& result) {
   const std::array<double, 3> angles = {euler.psi, euler.theta, euler.phi};
   std::optional<std::array<double, 6>> uncertainty;
   if (result.covariance) uncertainty = standard_uncertainty_of(*result.covariance);
-  std::string html = "<table>\n<thead>";
+  std::string html = "<table class=\"regions\">\n<thead>";
   html += cells({"Axis of the design", "Translation, " + escaped(result.units), "Standard uncertainty",
                  "Rotation about the axis, rad", "the same in degrees", "Standard uncertainty, rad"},
                 "th") +
@@ -93,8 +95,9 @@ std::string out_table(const Result& result) {
   if (out.empty()) return "<p>No point is out of tolerance.</p>\n";
   const std::string unit = ", " + escaped(result.units);
   std::string html = "<table class=\"points\">\n<thead>";
-  html += cells({"Point", "Action", "Distance" + unit, "Unfitted", "Tolerance", "Beyond by", "Uncertainty", "Region",
-                 "Patch", "u", "v", "Radius", "x measured", "y measured", "z measured"},
+  html += cells({"Point", "Action", "Distance" + unit, "Unfitted" + unit, "Allowed" + unit, "Beyond by" + unit,
+                 "Standard uncertainty" + unit, "Region", "Patch", "u", "v", "Radius" + unit, "x measured" + unit,
+                 "y measured" + unit, "z measured" + unit},
                 "th") +
           "</thead>\n<tbody>";
   for (std::size_t k = 0; k < std::min(out.size(), kMostRows); ++k) html += out_row(result, out[k]);

@@ -12,7 +12,7 @@
 namespace bladefit {
 namespace {
 
-constexpr double kPointRadius = 3.0, kOutRadius = 5.5, kGlyphArm = 3.0;
+constexpr double kPointRadius = 2.4, kOutRadius = 4.6, kGlyphArm = 2.6;
 constexpr double kLetterWidth = 6.6, kLetterHeight = 12.0;
 constexpr int kGridLines = 5;  // intervals of 0.2
 constexpr std::size_t kMostLabels = 60;
@@ -32,7 +32,7 @@ std::string glyph(bool plus, double x, double y, bool on_dark) {
   const char* const colour = on_dark ? "#fff" : "#000";
   std::string path = fmt::format("M{:.1f} {:.1f}h{:.1f}", x - kGlyphArm, y, 2 * kGlyphArm);
   if (plus) path += fmt::format("M{:.1f} {:.1f}v{:.1f}", x, y - kGlyphArm, 2 * kGlyphArm);
-  return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"2\"/>", path, colour);
+  return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.7\"/>", path, colour);
 }
 
 std::string tooltip(const ResultPoint& point, const Result& result) {
@@ -42,9 +42,10 @@ std::string tooltip(const ResultPoint& point, const Result& result) {
                      point.u, point.v);
 }
 
-std::vector<ResultPoint> drawn_points(const MapPanel& panel, const Result& result) {
+std::vector<ResultPoint> drawn_points(const MapPanel& panel, const Result& result, const DrawnPoints& drawn) {
   std::vector<ResultPoint> points;
-  for (const ResultPoint& point : result.points) {
+  for (const std::size_t index : drawn.indices) {
+    const ResultPoint point = result.points[index];
     if (lies_in(point, panel.part)) points.push_back(point);
   }
   std::stable_sort(points.begin(), points.end(), [](const ResultPoint& a, const ResultPoint& b) {
@@ -139,6 +140,9 @@ std::string point_mark(PointState state, double distance, double x, double y, co
   if (state == PointState::pending) {
     return fmt::format("<circle class=\"pending\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, kPointRadius);
   }
+  if (state == PointState::undecided) {
+    return fmt::format("<rect class=\"undecided\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"6\" height=\"6\"/>", x - 3, y - 3);
+  }
   if (state == PointState::in) {
     return fmt::format("<circle class=\"in\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>", x, y, kPointRadius,
                        scale.colour(distance));
@@ -148,9 +152,10 @@ std::string point_mark(PointState state, double distance, double x, double y, co
          glyph(distance > 0, x, y, scale.is_dark(distance));
 }
 
-std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale) {
+std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale,
+                         const DrawnPoints& drawn) {
   std::string svg;
-  for (const ResultPoint& point : drawn_points(panel, result)) {
+  for (const ResultPoint& point : drawn_points(panel, result, drawn)) {
     const std::string mark =
         point_mark(point.state, result.in_units(point.distance), panel.x(point.u), panel.y(point.v), scale);
     svg += point.state == PointState::out ? fmt::format("<g>{}{}</g>\n", tooltip(point, result), mark) : mark + "\n";

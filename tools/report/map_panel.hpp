@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tools/report/colour_scale.hpp"
+#include "tools/report/tolerance_scale.hpp"
 #include "tools/results/result.hpp"
 
 namespace bladefit {
@@ -23,8 +24,9 @@ struct MapPanel {
 /// Frame, grid, axes and the shaded leading-edge region.
 [[nodiscard]] std::string panel_frame(const MapPanel& panel, const std::vector<ParameterBox>& boxes);
 
-/// The points of the panel; those that are out lie on top.
-[[nodiscard]] std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale);
+/// The points of the panel, of those that are drawn; those that are out lie on top.
+[[nodiscard]] std::string panel_points(const MapPanel& panel, const Result& result, const ColourScale& scale,
+                                       const DrawnPoints& drawn);
 
 /// The mark of a point with its centre at (x, y), as map and legend show it; `distance` in the units of the scale.
 [[nodiscard]] std::string point_mark(PointState state, double distance, double x, double y, const ColourScale& scale);

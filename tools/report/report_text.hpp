@@ -6,7 +6,10 @@
 
 namespace bladefit {
 
-/// The text with & < > " ' written so that HTML and SVG show them and never take them for markup.
+/// The text with control characters, and bytes that are not UTF-8, as U+FFFD: what XML allows.
+[[nodiscard]] std::string clean_text(std::string_view text);
+
+/// The clean text with & < > " ' written so that HTML, SVG and XML show them and never take them for markup.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// Writes the lengths of a result, given in mm, in its units and all with the same number of decimals.
@@ -30,6 +33,9 @@ class LengthText {
 
 /// A word of the files as people write it: "leading edge".
 [[nodiscard]] std::string readable(std::string_view word);
+
+/// The clean text, its middle left out where it has more than `most` bytes.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t most);
 
 /// "1 point", "12 points".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/fit/fit_mode.hpp"
@@ -15,6 +16,8 @@
 #include "firmware_bridge/host/journal/journal_format.hpp"
 #include "firmware_bridge/host/threads/stream_losses.hpp"
 #include "tools/files/rows.hpp"
+#include "tools/results/blade_drawing.hpp"
+#include "tools/results/report_record.hpp"
 #include "tools/results/verdict_reason.hpp"
 
 namespace bladefit {
@@ -126,6 +129,11 @@ struct Result {
   std::vector<std::uint32_t> judged_otherwise;  ///< points that a robust fit finds in instead of out, or the reverse
   Rows<ResultPoint> points;                     ///< rising sequence
   std::optional<FitDetails> details;
+
+  std::optional<ReportRecord> record;                         ///< nothing where no file says
+  std::string written;                                        ///< when the report is made, as utc_now() writes it
+  std::vector<std::pair<std::string, std::string>> settings;  ///< of the fit, names with values
+  std::optional<BladeDrawing> drawing;                        ///< nothing where the design is not at hand
 
   /// A length of this result in the units in which it is written.
   [[nodiscard]] double in_units(double length) const { return length / mm_per_unit; }

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/geometry/surface/design_image.hpp"
 #include "drivers/text/read_file.hpp"
 #include "firmware_bridge/host/journal/journal_reader.hpp"
 #include "firmware_bridge/host/journal/session_file_names.hpp"
+#include "firmware_bridge/host/journal/session_settings_file.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/tool_error.hpp"
 #include "tools/results/json_reader.hpp"
@@ -46,6 +48,15 @@ bool is_usable(const StreamEvent& event) {
   return event.kind == EventKind::point && is_finite(event.point.position) && is_finite(event.point.approach);
 }
 
+/// The text of a file that need not be there.
+std::optional<std::string> read_if_there(const fs::path& path) {
+  if (std::error_code error; !fs::exists(path, error)) return std::nullopt;
+  std::string text;
+  if (const Failure failure = read_file(path, kMaxFileSize, text))
+    throw ToolError(fmt::format("{}: {}", path.string(), failure.message), failure.kind);
+  return text;
+}
+
 std::string read_part(const fs::path& folder, const char* name, const JournalContent& journal) {
   const fs::path path = folder / name;
   if (std::error_code error; !fs::exists(path, error)) {
@@ -55,11 +66,7 @@ std::string read_part(const fs::path& folder, const char* name, const JournalCon
                     "or run it again with the same --session",
                     path.string(), points));
   }
-  std::string text;
-  if (const Failure failure = read_file(path, kMaxFileSize, text)) {
-    throw ToolError(fmt::format("{}: {}", path.string(), failure.message), failure.kind);
-  }
-  return text;
+  return *read_if_there(path);
 }
 
 void check_same_run(const std::string& directory, const Rows<ResultPoint>& result, const Rows<ResultPoint>& points) {
@@ -114,12 +121,47 @@ WrittenFiles write_session_files(const std::string& directory, const Result& res
   add_written(
       folder / kVerdictsFile,
       [&] { write(kVerdictsFile, [&result](const Put& put) { write_verdicts_csv(result.points, put); }); }, files);
+  if (result.record) {
+    add_written(
+        folder / kRecordFile, [&] { write_session_record(directory, *result.record); }, files);
+  }
   return files;
+}
+
+void write_session_record(const std::string& directory, const ReportRecord& record) {
+  OutputFile(fs::path(directory) / kRecordFile, record_json(record)).commit();
+}
+
+void write_session_design(const std::string& directory, std::span<const std::byte> image) {
+  const std::string_view bytes(reinterpret_cast<const char*>(image.data()), image.size());
+  OutputFile(fs::path(directory) / kDesignFile, bytes).commit();
+}
+
+std::optional<ReportRecord> read_session_record(const std::string& directory) {
+  const fs::path path = fs::path(directory) / kRecordFile;
+  const std::optional<std::string> text = read_if_there(path);
+  if (!text) return std::nullopt;
+  return parse_record(path, *text);
+}
+
+std::vector<std::byte> read_session_design(const std::string& directory, const SessionIdentity& identity) {
+  const fs::path path = fs::path(directory) / kDesignFile;
+  const std::optional<std::string> text = read_if_there(path);
+  if (!text) return {};
+  const auto* const bytes = reinterpret_cast<const std::byte*>(text->data());
+  std::vector<std::byte> image(bytes, bytes + text->size());
+  DesignImage design;
+  const bool valid = DesignImage::open(image, design) == Status::ok;
+  if (valid && design.header().crc32 == identity.design_crc) return image;
+  throw ToolError(
+      fmt::format("{}: {}; run the session again with the same --session, or remove the file: the report is "
+                  "then without pictures of the blade",
+                  path.string(), valid ? "is another design than the one the session was judged by" : "is damaged"));
 }
 
 std::vector<std::string> remove_stray_session_files(const std::string& directory) {
   std::vector<std::string> removed;
-  for (const char* const name : {kResultFile, kVerdictsFile}) {
+  for (const char* const name : {kResultFile, kVerdictsFile, kRecordFile, kDesignFile}) {
     const std::vector<std::string> parts = remove_stray_parts(fs::path(directory) / name);
     removed.insert(removed.end(), parts.begin(), parts.end());
   }
@@ -139,6 +181,8 @@ Result read_session(const std::string& directory) {
   result.name = fs::weakly_canonical(folder).filename().string();
   result.identity = journal.identity;
   result.points = std::move(points);
+  result.record = read_session_record(directory);
+  if (const auto settings = read_if_there(folder / kSettingsFile)) result.settings = named_settings(*settings);
   return result;
 }
 

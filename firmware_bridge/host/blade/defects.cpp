@@ -4,13 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kMostPoints = 2048;
 constexpr double kNeighbours = 0.03;  ///< shares of R between neighbouring points
 
 double in_tolerances(const Verdict& verdict) { return std::abs(verdict.foot.distance) / verdict.tolerance_mm; }
@@ -22,7 +20,7 @@ std::vector<const Verdict*> worst_first(const std::map<std::uint32_t, Verdict>& 
   for (const auto& [sequence, verdict] : out) points.push_back(&verdict);
   std::stable_sort(points.begin(), points.end(),
                    [](const Verdict* a, const Verdict* b) { return in_tolerances(*a) > in_tolerances(*b); });
-  if (points.size() > kMostPoints) points.resize(kMostPoints);
+  if (points.size() > kMostJoined) points.resize(kMostJoined);
   return points;
 }
 
@@ -124,8 +122,9 @@ std::array<float, 3> in_machine(const Pose& pose, const Vec3& design_point) {
   return {static_cast<float>(place.x()), static_cast<float>(place.y()), static_cast<float>(place.z())};
 }
 
-std::vector<BladeDefect> joined_defects(const BladeLayout& layout, const BladeCounts& counts, const Pose& pose) {
-  const std::vector<const Verdict*> points = worst_first(counts.out());
+std::vector<BladeDefect> joined_defects(const BladeLayout& layout, const std::map<std::uint32_t, Verdict>& out,
+                                        const Pose& pose) {
+  const std::vector<const Verdict*> points = worst_first(out);
   const double width = kNeighbours * layout.tip_radius_mm();
   std::vector<BladeDefect> defects;
   if (points.empty() || !(width > 0)) return defects;

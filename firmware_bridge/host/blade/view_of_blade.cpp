@@ -27,7 +27,7 @@ BladeView view_of_blade(const BladeLayout& layout, const BladeCounts& counts, co
     view.pressure[band] = points_there(layout, counts, BladeSide::pressure, band);
   }
   view.next = next_place(layout, counts, report);
-  const std::vector<BladeDefect> defects = joined_defects(layout, counts, report.pose);
+  const std::vector<BladeDefect> defects = joined_defects(layout, counts.out(), report.pose);
   view.defect_count = static_cast<std::uint32_t>(defects.size());
   std::copy_n(defects.begin(), std::min(defects.size(), BladeView::kDefects), view.defects.begin());
   return view;

@@ -11,8 +11,6 @@
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <utility>
-#include <vector>
 
 #include "core/localizer/config_fields.hpp"
 #include "firmware_bridge/host/journal/config_digest.hpp"
@@ -34,8 +32,13 @@ std::string value_text(const Field& field) {
   }
 }
 
-/// Values by name, in the order of the text.
-std::vector<std::pair<std::string, std::string>> parse(const std::string& text) {
+std::string path_of(const std::string& session_directory) {
+  return (std::filesystem::path(session_directory) / kSettingsFile).string();
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> named_settings(const std::string& text) {
   std::vector<std::pair<std::string, std::string>> values;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
@@ -45,12 +48,6 @@ std::vector<std::pair<std::string, std::string>> parse(const std::string& text) 
   }
   return values;
 }
-
-std::string path_of(const std::string& session_directory) {
-  return (std::filesystem::path(session_directory) / kSettingsFile).string();
-}
-
-}  // namespace
 
 std::string settings_text(const LocalizerConfig& config, std::uint32_t path_refine_points) {
   std::string text = fmt::format("{}{}{}\npath_refine_points{}{}\n", kDigestName, kBetween,
@@ -81,10 +78,10 @@ std::string differing_settings(const std::string& session_directory, std::uint64
   std::ostringstream content;
   content << file.rdbuf();
   std::map<std::string, std::string> before;
-  for (const auto& [name, value] : parse(content.str())) before[name] = value;
+  for (const auto& [name, value] : named_settings(content.str())) before[name] = value;
   if (before[kDigestName] != fmt::format("{}", digest)) return "";
   std::vector<std::string> told;
-  for (const auto& [name, value] : parse(text)) {
+  for (const auto& [name, value] : named_settings(text)) {
     const auto was = before.find(name);
     if (name == kDigestName) continue;
     if (was == before.end()) {

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/localizer.hpp"
 #include "drivers/source/failure.hpp"
@@ -9,6 +11,9 @@ namespace bladefit {
 
 /// The settings of a session as text: a line `name = value` for each that enters config_digest(), and that digest.
 [[nodiscard]] std::string settings_text(const LocalizerConfig& config, std::uint32_t path_refine_points);
+
+/// The names and values of such a text, in its order.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> named_settings(const std::string& text);
 
 /// Writes the text to the session's folder, on disk when this returns.
 [[nodiscard]] Failure write_settings(const std::string& session_directory, const std::string& text);

@@ -54,9 +54,9 @@ TEST(ReportFormats, CsvHasALineAPointInTheUnitOfTheResult) {
   std::getline(text, line);
   EXPECT_EQ(line,
             "sequence,x_in,y_in,z_in,patch,u,v,kind,region,distance_in,tolerance_in,uncertainty_in,state,action,"
-            "expanded_uncertainty_in,distance_before_in");
+            "expanded_uncertainty_in,distance_before_in,side,radius_in,r_over_R,chord_percent");
   std::getline(text, line);
-  EXPECT_EQ(line, "1,1,-2,0.1,0,0.5,0.1,interior,leading_edge,0.02,0.01,0.0005,out,cut,0.001,0.05");
+  EXPECT_EQ(line, "1,1,-2,0.1,0,0.5,0.1,interior,leading_edge,0.02,0.01,0.0005,out,cut,0.001,0.05,,,,");
   EXPECT_EQ(std::count(std::istreambuf_iterator<char>(text), {}, '\n'), 4);
 }
 

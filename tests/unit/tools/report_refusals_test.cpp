@@ -13,8 +13,9 @@ using testing::expect_refused;
 using testing::SessionFolder;
 
 TEST(ReportRefusals, FormatsThatAreNotThere) {
-  for (const char* format : {"qif", "pdf", "HTML", "''"}) {
-    expect_refused(SessionFolder(), {"html, csv and json"}, ". --format " + std::string(format) + " -o report.out");
+  for (const char* format : {"dmo", "docx", "HTML", "''"}) {
+    expect_refused(SessionFolder(), {"html, pdf, csv, json and qif"},
+                   ". --format " + std::string(format) + " -o report.out");
   }
 }
 

@@ -54,6 +54,7 @@ TEST(ResultRecord, EveryFormatSaysTheSameOfAFitAndOfItsFiles) {
   read.points = parse_verdicts("verdicts.csv", verdicts_csv(made.points));
   read.name = made.name;
   for (const ReportFormat& format : kFormats) {
+    if (format.name == "pdf") continue;  // the page of html, printed by a program that need not be there
     EXPECT_FALSE(format.text_of(made).empty()) << format.name;
     EXPECT_EQ(format.text_of(read), format.text_of(made)) << format.name;
   }
@@ -61,8 +62,8 @@ TEST(ResultRecord, EveryFormatSaysTheSameOfAFitAndOfItsFiles) {
 
 TEST(ResultRecord, FormatsAreFoundByTheirNames) {
   for (const ReportFormat& format : kFormats) EXPECT_EQ(&format_of(format.name), &format);
-  EXPECT_THROW(static_cast<void>(format_of("pdf")), ToolError);
-  EXPECT_EQ(format_names(", ", " and "), "html, csv and json");
+  EXPECT_THROW(static_cast<void>(format_of("docx")), ToolError);
+  EXPECT_EQ(format_names(", ", " and "), "html, pdf, csv, json and qif");
 }
 
 }  // namespace
