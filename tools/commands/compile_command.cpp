@@ -10,9 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "config/fit_text.hpp"
 #include "core/geometry/surface/design_image.hpp"
 #include "tools/commands/design_list.hpp"
 #include "tools/commands/design_notes.hpp"
+#include "tools/design/blade_choice.hpp"
 #include "tools/design/image/c_array.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
@@ -24,7 +26,8 @@ namespace {
 
 struct CompileOptions {
   std::vector<std::string> designs, faces;
-  std::string output, c_array, outward = "auto";
+  std::string output, c_array, outward = "auto", axis;
+  double blade = 0;  ///< 0: all of the design
   bool list = false, allow_missing = false;
 };
 
@@ -55,6 +58,7 @@ Examples:
   bladefit compile sheet.stp -o sheet.bfd --outward -
   bladefit compile propeller.stp --list
   bladefit compile propeller.stp -o blade.bfd --face "BLADE1*" --face 12
+  bladefit compile propeller.stp -o blade.bfd --blade 1
   bladefit compile suction.igs pressure.igs -o blade.bfd
   bladefit compile fan.igs -o fan.bfd --c-array fan.c     (defines fan_design and fan_design_size)
 
@@ -129,13 +133,25 @@ std::vector<std::filesystem::path> paths_of(const CompileOptions& options) {
   return {options.designs.begin(), options.designs.end()};
 }
 
+DesignChoice choice_of(const CompileOptions& options) {
+  DesignChoice choice(outward_choice(options.outward), options.faces, options.allow_missing);
+  if (options.blade != 0) choice.blade = blade_number(options.blade);
+  if (options.axis.empty()) return choice;
+  ShaftAxis axis;
+  if (const Failure error = parse_axis(options.axis, axis)) {
+    throw ToolError(fmt::format("--axis {}: {}", options.axis, error.message));
+  }
+  choice.axis = axis;
+  return choice;
+}
+
 void compile(const CompileOptions& options) {
   if (options.list) {
     fmt::print("{}", design_list(paths_of(options)));
     return;
   }
   if (options.output.empty()) throw ToolError("compile: no output is given; name it with -o, or say --list");
-  const DesignChoice choice(outward_choice(options.outward), options.faces, options.allow_missing);
+  const DesignChoice choice = choice_of(options);
   check_outputs(options);
   const LoadedDesign design = load_design(paths_of(options), choice);
   const DesignImage image = open_compiled(options, design);
@@ -160,6 +176,13 @@ void add_compile_command(CLI::App& app, int& exit_code) {
       ->add_option("--face", options->faces, "Face to use: number in --list, name or pattern; repeat it (default all)")
       ->type_name("NAME|N|GLOB")
       ->allow_extra_args(false);
+  command
+      ->add_option("--blade", options->blade,
+                   "Blade of a whole propeller to use: number in --list, about the axis (default all)")
+      ->type_name("N")
+      ->check(CLI::Range(1.0, 100.0));
+  command->add_option("--axis", options->axis, "Shaft about which --blade counts (default that which the shape tells)")
+      ->type_name("x|y|z|x0,y0,z0,i,j,k");
   command->add_flag("--allow-missing", options->allow_missing, "Go on without faces that cannot be read");
   command->add_option("--c-array", options->c_array, "Also write the image as a C99 array, for flash")
       ->type_name("OUT.c");

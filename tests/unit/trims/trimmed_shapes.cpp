@@ -1,6 +1,7 @@
 #include "tests/unit/trims/trimmed_shapes.hpp"
 
 #include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -8,8 +9,10 @@
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepLib.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -199,6 +202,18 @@ TopoDS_Shape two_half_faces() {
 }
 
 }  // namespace
+
+TopoDS_Shape propeller_body(int blades) {
+  TopoDS_Shape body = hub();
+  for (int k = 0; k < blades; ++k) {
+    gp_Trsf turn;
+    turn.SetRotation(gp_Ax1(gp_Pnt(), gp_Dir(1, 0, 0)), 2 * std::numbers::pi * k / blades);
+    body = BRepAlgoAPI_Fuse(body, BRepBuilderAPI_Transform(blade_body(), turn).Shape()).Shape();
+  }
+  const gp_Ax2 along_x(gp_Pnt(-50, 0, 0), gp_Dir(1, 0, 0));
+  body = BRepAlgoAPI_Cut(body, BRepPrimAPI_MakeCylinder(along_x, 8.0, 100.0).Shape()).Shape();
+  return BRepAlgoAPI_Cut(body, BRepPrimAPI_MakeBox(gp_Pnt(-50, -2, 0), gp_Pnt(50, 2, 11)).Shape()).Shape();
+}
 
 TrimmedShape trimmed_shape(std::size_t index) {
   switch (index) {

@@ -18,4 +18,8 @@ struct TrimmedShape {
 inline constexpr std::size_t kTrimmedShapes = 6;
 [[nodiscard]] TrimmedShape trimmed_shape(std::size_t index);
 
+/// A body of `blades` blades like the last about the x axis, the first along +z, fused with a hub, in which there are a
+/// bore and a keyway.
+[[nodiscard]] TopoDS_Shape propeller_body(int blades);
+
 }  // namespace bladefit::testing

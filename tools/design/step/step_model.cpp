@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <Interface_Check.hxx>
 #include <Interface_EntityIterator.hxx>
+#include <StepGeom_Axis2Placement3d.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
+#include <StepRepr_MappedItem.hxx>
+#include <StepRepr_RepresentationMap.hxx>
 #include <StepShape_ShapeRepresentation.hxx>
 #include <StepVisual_Invisibility.hxx>
 #include <StepVisual_InvisibleItem.hxx>
@@ -50,6 +54,27 @@ void StepModel::check_faces() const {
       if (fault.empty()) return;
       throw ToolError(fmt::format("{}: surface {}: {}; export the design again", file_, label_of(part), fault));
     });
+  }
+}
+
+void StepModel::check_places() const {
+  for (int k = 1; k <= model_->NbEntities(); ++k) {
+    const Handle(Standard_Transient)& entity = model_->Value(k);
+    const auto operation = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
+    if (!operation.IsNull() && operation->HasScale() && operation->Scale() != 1) {
+      throw ToolError(fmt::format("{}: {}: a part is placed at {:g} times its size; export the blade as one part", file_,
+                                  label_of(entity), operation->Scale()));
+    }
+    const auto item = Handle(StepRepr_MappedItem)::DownCast(entity);
+    if (item.IsNull() || item->MappingSource().IsNull()) continue;
+    const Handle(StepRepr_Representation) part = item->MappingSource()->MappedRepresentation();
+    const Handle(StepRepr_RepresentationItem) place = item->MappingTarget();
+    const bool known = !place.IsNull() && (place->IsKind(STANDARD_TYPE(StepGeom_Axis2Placement3d)) ||
+                                           place->IsKind(STANDARD_TYPE(StepGeom_CartesianTransformationOperator3d)));
+    if (known || part.IsNull() || !part->IsKind(STANDARD_TYPE(StepShape_ShapeRepresentation))) continue;
+    throw ToolError(fmt::format("{}: {}: where a part stands is given in a way that is not read; export the blade as one "
+                                "part",
+                                file_, label_of(entity)));
   }
 }
 
