@@ -17,8 +17,7 @@ namespace {
 
 /// "x", "y", "z", or the direction; with the point where it does not go through the origin.
 std::string axis_text(const ShaftAxis& axis, DesignUnit unit) {
-  std::string text =
-      fmt::format("{:.4g}, {:.4g}, {:.4g}", axis.direction.x(), axis.direction.y(), axis.direction.z());
+  std::string text = fmt::format("{:.4g}, {:.4g}, {:.4g}", axis.direction.x(), axis.direction.y(), axis.direction.z());
   for (int k = 0; k < 3; ++k) {
     if (axis.direction == Eigen::Vector3d::Unit(k)) text = std::string(1, "xyz"[k]);
   }
@@ -28,7 +27,7 @@ std::string axis_text(const ShaftAxis& axis, DesignUnit unit) {
 }
 
 /// "0 to 3, 7".
-std::string numbers_of(const std::vector<std::size_t>& faces) {
+std::string face_numbers(const std::vector<std::size_t>& faces) {
   std::string text;
   for (std::size_t k = 0; k < faces.size();) {
     std::size_t last = k;
@@ -72,7 +71,7 @@ void keep_blade(DesignFile& design, std::size_t number, const std::optional<Shaf
   const DesignBlade& blade = found.blades[number - 1];
   design.warnings.push_back(fmt::format(
       "blade {} of {}, {:.0f} degrees from there: faces {}; left out: the other blades, {} faces of the hub, {} others",
-      number, blades_title(found, design.unit), degrees_of(blade), numbers_of(blade.faces), found.hub.size(),
+      number, blades_title(found, design.unit), degrees_of(blade), face_numbers(blade.faces), found.hub.size(),
       found.others.size()));
   keep_numbers(design, blade.faces);
 }
@@ -83,10 +82,10 @@ std::vector<std::string> blade_lines(const DesignFile& design) {
   std::vector<std::string> lines = {blades_title(found, design.unit) + ":"};
   for (std::size_t k = 0; k < found.blades.size(); ++k) {
     lines.push_back(fmt::format("  --blade {}: {:.0f} degrees, faces {}", k + 1, degrees_of(found.blades[k]),
-                                numbers_of(found.blades[k].faces)));
+                                face_numbers(found.blades[k].faces)));
   }
-  if (!found.hub.empty()) lines.push_back(fmt::format("  hub: faces {}", numbers_of(found.hub)));
-  if (!found.others.empty()) lines.push_back(fmt::format("  of neither: faces {}", numbers_of(found.others)));
+  if (!found.hub.empty()) lines.push_back(fmt::format("  hub: faces {}", face_numbers(found.hub)));
+  if (!found.others.empty()) lines.push_back(fmt::format("  of neither: faces {}", face_numbers(found.others)));
   return lines;
 }
 

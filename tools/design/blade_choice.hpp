@@ -9,9 +9,9 @@
 
 namespace bladefit {
 
-/// Keeps the faces of blade `number` of a propeller (1 is the first), with a line to the warnings that tells which these
-/// are. Where no axis [mm] is given, x, y and z are tried. Throws ToolError where no blades repeat about it, and where
-/// there are not so many.
+/// Keeps the faces of blade `number` of a propeller (1 is the first), with a line to the warnings that tells which
+/// these are. Where no axis [mm] is given, x, y and z are tried. Throws ToolError where no blades repeat about it, and
+/// where there are not so many.
 void keep_blade(DesignFile& design, std::size_t number, const std::optional<ShaftAxis>& axis, const std::string& file);
 
 /// A number of --blade. Throws ToolError where it is not whole.

@@ -24,6 +24,9 @@ std::string side_note(int sign, const std::string& reason) {
 }
 
 LoadedDesign load_image(const std::filesystem::path& path, const DesignChoice& choice) {
+  if (choice.size == ImageSize::compact) {
+    throw ToolError(fmt::format("{}: is compiled already; --compact needs the IGES or STEP file", path.string()));
+  }
   if (!choice.faces.empty() || choice.blade || !choice.outward.faces.empty()) {
     throw ToolError(
         fmt::format("{}: a compiled design has no names of faces; choose faces, blade and sides when it is "
@@ -105,8 +108,10 @@ LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const 
   if (choice.faces.empty()) leave_flat_caps(design);
   if (design.surfaces.empty()) throw ToolError(fmt::format("{}: no face that can be read is left", file));
   const OutwardSide side = choose_sides(design, choice.outward, file);
-  LoadedDesign loaded{
-      write_image(design.surfaces, design.unit, side.sign), design.warnings, trim_warning(design, file), {}};
+  LoadedDesign loaded{write_image(design.surfaces, design.unit, side.sign, choice.size),
+                      design.warnings,
+                      trim_warning(design, file),
+                      {}};
   for (const DesignFace& face : design.faces) loaded.names.push_back(face.name);
   const std::vector<std::string> doubts = design_doubts(design);
   loaded.notes.insert(loaded.notes.end(), doubts.begin(), doubts.end());

@@ -8,6 +8,7 @@
 
 #include "config/outward_option.hpp"
 #include "core/inspection/shaft_axis.hpp"
+#include "tools/design/image/image_size.hpp"
 #include "tools/design/nurbs/design_file.hpp"
 
 namespace bladefit {
@@ -29,6 +30,7 @@ struct DesignChoice {
   OutwardChoice outward;
   std::vector<std::string> faces;  ///< as faces_named() reads them; none = all
   bool allow_missing = false;      ///< faces that cannot be read are left out
+  ImageSize size = ImageSize::fast;
   std::optional<std::size_t> blade;   ///< of a propeller, as keep_blade() counts; none = all faces
   std::optional<ShaftAxis> axis;      ///< about which its blades repeat, its point in units of `mm_per_unit`
   std::optional<double> mm_per_unit;  ///< none = those of the design file

@@ -60,12 +60,13 @@ std::string merge_spans(NurbsSurface& surface) {
 DesignFile read_unchecked(const std::filesystem::path& path) {
   const std::string last = lower_extension(path), extension = last == ".gz" ? lower_extension(path.stem()) : last;
   if (extension == ".igs" || extension == ".iges") return cad_library().read_iges(path);
-  if (extension == ".stp" || extension == ".step" || extension == ".p21" || extension == ".stpz") return cad_library().read_step(path);
+  if (extension == ".stp" || extension == ".step" || extension == ".p21" || extension == ".stpz")
+    return cad_library().read_step(path);
   const auto other = std::ranges::find(kOtherKinds, extension, &OtherKind::extension);
-  throw ToolError(
-      fmt::format("{}: {} \"{}\"; {}", path.string(),
-                  other == kOtherKinds.end() ? "unknown kind of design" : "cannot read designs of kind", extension,
-                  other == kOtherKinds.end() ? "give a file named .igs, .iges, .stp, .step, .stpz or .p21" : other->way));
+  throw ToolError(fmt::format(
+      "{}: {} \"{}\"; {}", path.string(),
+      other == kOtherKinds.end() ? "unknown kind of design" : "cannot read designs of kind", extension,
+      other == kOtherKinds.end() ? "give a file named .igs, .iges, .stp, .step, .stpz or .p21" : other->way));
 }
 
 }  // namespace

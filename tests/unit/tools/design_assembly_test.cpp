@@ -68,7 +68,16 @@ Eigen::Affine3d mirrored_and_shifted() {
   return moved;
 }
 
-constexpr const char* kMirror = "#58=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#51,#52,#56,1.,#54);\n";
+/// Half a turn about x, then by (5, 6, 7).
+Eigen::Affine3d turned_and_shifted() {
+  Eigen::Affine3d moved = Eigen::Affine3d::Identity();
+  moved.linear().diagonal() = Eigen::Vector3d(1, -1, -1);
+  moved.translation() = Eigen::Vector3d(5, 6, 7);
+  return moved;
+}
+
+constexpr const char* kHalfTurn =
+    "#59=DIRECTION('',(0.,-1.,0.));\n#58=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#51,#59,#56,1.,#54);\n";
 
 std::string refusal_of_mapping(const std::string& operation) {
   try {
@@ -79,28 +88,34 @@ std::string refusal_of_mapping(const std::string& operation) {
   return "accepted";
 }
 
-TEST(DesignAssembly, AStepMirrorTurnsTheSideWithTheShape) {
-  const DesignFile design = read_text_as("a.stp", mapped_step(std::string(kMirror) + "#41=MAPPED_ITEM('',#57,#58);\n"));
+TEST(DesignAssembly, AStepOperatorMovesThePartAndItsSide) {
+  const DesignFile design =
+      read_text_as("a.stp", mapped_step(std::string(kHalfTurn) + "#41=MAPPED_ITEM('',#57,#58);\n"));
   ASSERT_EQ(design.surfaces.size(), 1U);
-  expect_moved(design.surfaces[0], mirrored_and_shifted());
+  expect_moved(design.surfaces[0], turned_and_shifted());
 }
 
-TEST(DesignAssembly, APlaceThatTheLibraryIgnoresIsRefused) {
+TEST(DesignAssembly, APlaceThatTheLibraryReadsAsAnotherIsRefused) {
+  const std::string mirrored =
+      refusal_of_mapping("#58=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#51,#52,#56,1.,#54);\n");
+  EXPECT_NE(mirrored.find("#58: a part is mirrored where it is placed, which is not read"), std::string::npos)
+      << mirrored;
   const std::string enlarged =
       refusal_of_mapping("#58=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#51,#52,#56,2.,#53);\n");
-  EXPECT_NE(enlarged.find("#58: a part is placed at 2 times its size"), std::string::npos) << enlarged;
+  EXPECT_NE(enlarged.find("#58: a part is made 2 times as large where it is placed"), std::string::npos) << enlarged;
   const std::string unknown = refusal_of_mapping(
       "#58=(CARTESIAN_TRANSFORMATION_OPERATOR(#51,#52,#56,1.)CARTESIAN_TRANSFORMATION_OPERATOR_3D(#54)"
       "FUNCTIONALLY_DEFINED_TRANSFORMATION('','')GEOMETRIC_REPRESENTATION_ITEM()REPRESENTATION_ITEM(''));\n");
   EXPECT_NE(unknown.find("#41: where a part stands is given in a way that is not read"), std::string::npos) << unknown;
 }
 
-TEST(DesignAssembly, AMirrorOfAMirrorIsNone) {
-  const DesignFile design = read_text_as(
-      "a.stp", mapped_step(std::string(kMirror) + "#42=MAPPED_ITEM('',#57,#58);\n#43=SHAPE_REPRESENTATION('',(#42,#55),"
-                                                  "#1);\n#44=REPRESENTATION_MAP(#55,#43);\n#41=MAPPED_ITEM('',#44,#58);\n"));
+TEST(DesignAssembly, OperatorsInsideOfEachOtherFollowEachOther) {
+  const DesignFile design =
+      read_text_as("a.stp", mapped_step(std::string(kHalfTurn) +
+                                        "#42=MAPPED_ITEM('',#57,#58);\n#43=SHAPE_REPRESENTATION('',(#42,#55),"
+                                        "#1);\n#44=REPRESENTATION_MAP(#55,#43);\n#41=MAPPED_ITEM('',#44,#58);\n"));
   ASSERT_EQ(design.surfaces.size(), 1U);
-  expect_moved(design.surfaces[0], mirrored_and_shifted() * mirrored_and_shifted());
+  expect_moved(design.surfaces[0], turned_and_shifted() * turned_and_shifted());
 }
 
 TEST(DesignAssembly, AnIgesMatrixMirrorsTheSurface) {
@@ -137,7 +152,7 @@ DesignFile read_assembly(const std::function<void(XCAFDoc_ShapeTool&, XCAFDoc_Co
   return read_design(path);
 }
 
-TopLoc_Location turned(double degrees, const gp_Vec& shift) {
+TopLoc_Location placed_at(double degrees, const gp_Vec& shift) {
   gp_Trsf turn, move;
   turn.SetRotation(gp_Ax1(gp_Pnt(), gp_Dir(0, 0, 1)), degrees / 180 * M_PI);
   move.SetTranslation(shift);
@@ -156,8 +171,8 @@ TEST(DesignAssembly, PartsOfNestedAssembliesStandWhereTheyArePlacedAndLookOut) {
   const DesignFile design = read_assembly([](XCAFDoc_ShapeTool& shapes, XCAFDoc_ColorTool&) {
     const TDF_Label part = shapes.AddShape(BRepPrimAPI_MakeBox(10.0, 20.0, 30.0).Shape(), Standard_False);
     const TDF_Label inner = shapes.NewShape(), outer = shapes.NewShape();
-    shapes.AddComponent(inner, part, turned(90, gp_Vec(100, 0, 0)));
-    shapes.AddComponent(outer, inner, turned(90, gp_Vec(0, 0, 50)));
+    shapes.AddComponent(inner, part, placed_at(90, gp_Vec(100, 0, 0)));
+    shapes.AddComponent(outer, inner, placed_at(90, gp_Vec(0, 0, 50)));
     shapes.AddComponent(outer, part, TopLoc_Location());
   });
   ASSERT_EQ(design.surfaces.size(), 12U);
@@ -201,7 +216,8 @@ TEST(DesignAssembly, StyledFacesAndShellsAreHiddenByStep) {
   ASSERT_GT(number, first_of_hidden);
   const std::string styled = "#60=PRESENTATION_STYLE_ASSIGNMENT((NULL_STYLE(.NULL.)));\n";
   const auto hidden = [&](const std::string& item) {
-    return testing::step_file(statements + styled + "#61=STYLED_ITEM('',(#60)," + item + ");\n#62=INVISIBILITY((#61));\n");
+    return testing::step_file(statements + styled + "#61=STYLED_ITEM('',(#60)," + item +
+                              ");\n#62=INVISIBILITY((#61));\n");
   };
   const DesignFile design = read_text_as("a.stp", hidden(face));
   ASSERT_EQ(design.surfaces.size(), 1U);

@@ -65,7 +65,7 @@ std::string zip_of(const std::vector<ArchivedFile>& files) {
   return archive + directory + end;
 }
 
-std::string refusal_of(const std::string& content, std::size_t most = kMostUnpacked) {
+std::string packed_refusal(const std::string& content, std::size_t most = kMostUnpacked) {
   try {
     const std::string text = unpacked(content, "a.stpz", most);
     return "accepted " + text.substr(0, 20);
@@ -74,8 +74,8 @@ std::string refusal_of(const std::string& content, std::size_t most = kMostUnpac
   }
 }
 
-void expect_refused(const std::string& content, const std::string& why) {
-  const std::string said = refusal_of(content);
+void expect_packed_refused(const std::string& content, const std::string& why) {
+  const std::string said = packed_refusal(content);
   EXPECT_NE(said.find(why), std::string::npos) << said;
   EXPECT_EQ(said.find("a.stpz: "), 0U) << said;
 }
@@ -108,7 +108,7 @@ TEST(DesignPacked, WhatGrowsTooLargeIsRefused) {
   const std::string text(5 << 20U, 'x');
   for (const std::string& packed : {deflated(text, kGzip), zip_of({{"a.stp", text}})}) {
     EXPECT_LT(packed.size(), 20000U);
-    EXPECT_NE(refusal_of(packed, (5 << 20U) - 1).find("grows to more than 4 MB"), std::string::npos);
+    EXPECT_NE(packed_refusal(packed, (5 << 20U) - 1).find("grows to more than 4 MB"), std::string::npos);
     EXPECT_EQ(unpacked(packed, "a", 5 << 20U), text);
   }
 }
@@ -118,26 +118,27 @@ TEST(DesignPacked, ABombIsRefusedBeforeItTakesMemory) {
   const std::string member = deflated(std::string(1 << 20U, '\0'), kGzip);
   std::string bomb;
   for (int k = 0; k < 1000; ++k) bomb += member;
-  expect_refused(bomb, "grows to more than 512 MB");
+  expect_packed_refused(bomb, "grows to more than 512 MB");
 }
 
 TEST(DesignPacked, DamagedEncryptedAndAmbiguousOnesAreRefused) {
   const std::string step = packed_step_text(), gzip = deflated(step, kGzip);
-  expect_refused(gzip.substr(0, gzip.size() / 2), "damaged or cut off");
+  expect_packed_refused(gzip.substr(0, gzip.size() / 2), "damaged or cut off");
   std::string wrong = gzip;
   wrong[wrong.size() / 2] = static_cast<char>(wrong[wrong.size() / 2] ^ 0x55);
-  expect_refused(wrong, "damaged or cut off");
+  expect_packed_refused(wrong, "damaged or cut off");
   const std::string zip = zip_of({{"a.stp", step}});
-  for (std::size_t size = 4; size < zip.size(); size += 61) expect_refused(zip.substr(0, size), "damaged or cut off");
-  expect_refused(zip_of({{"a.stp", step}, {"b.igs", "x"}}), "holds 2 CAD files; unpack it");
-  expect_refused(zip_of({{"a.txt", "x"}}), "holds no file named .stp");
-  expect_refused(zip_of({{"a.stp", step, false, 1}}), "is encrypted");
+  for (std::size_t size = 4; size < zip.size(); size += 61)
+    expect_packed_refused(zip.substr(0, size), "damaged or cut off");
+  expect_packed_refused(zip_of({{"a.stp", step}, {"b.igs", "x"}}), "holds 2 CAD files; unpack it");
+  expect_packed_refused(zip_of({{"a.txt", "x"}}), "holds no file named .stp");
+  expect_packed_refused(zip_of({{"a.stp", step, false, 1}}), "is encrypted");
   std::string changed = zip_of({{"a.stp", step, true}});
   changed[changed.find("MILLI")] = 'm';
-  expect_refused(changed, "check sum of a.stp is wrong");
+  expect_packed_refused(changed, "check sum of a.stp is wrong");
   std::string beyond = zip;
   beyond.replace(beyond.rfind("PK\5\6") + 16, 4, "\xFF\xFF\xFF\x7F");
-  expect_refused(beyond, "damaged");
+  expect_packed_refused(beyond, "damaged");
 }
 
 }  // namespace

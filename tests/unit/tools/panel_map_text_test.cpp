@@ -24,7 +24,7 @@ struct MapRow {
 };
 
 /// The cells of a line of the map; quotes hold a cell with commas together.
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> cells_of_row(const std::string& line) {
   std::vector<std::string> cells(1);
   bool quoted = false;
   for (const char character : line) {
@@ -46,7 +46,7 @@ std::map<std::string, MapRow> printed_map() {
   std::getline(lines, line);
   EXPECT_EQ(line, "table,address,input,holding,registers,type,unit,name,meaning");
   while (std::getline(lines, line)) {
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = cells_of_row(line);
     EXPECT_EQ(cells.size(), 9U) << line;
     const MapRow row{cells[0], std::stoul(cells[1]), std::stoul(cells[4]), cells[2], cells[3], cells[5], cells[6],
                      cells[8]};

@@ -48,7 +48,8 @@ std::string refusal_of(DesignFile design, std::size_t number, const std::optiona
 /// The design turned so that x becomes z, z becomes y.
 void turn_and_move(DesignFile& design, const Eigen::Vector3d& shift) {
   for (NurbsSurface& surface : design.surfaces) {
-    for (Eigen::Vector3d& point : surface.control_points) point = Eigen::Vector3d(point.y(), point.z(), point.x()) + shift;
+    for (Eigen::Vector3d& point : surface.control_points)
+      point = Eigen::Vector3d(point.y(), point.z(), point.x()) + shift;
   }
 }
 
@@ -65,7 +66,8 @@ TEST_P(Propeller, EachBladeIsFoundAndNumberedFromPlusYAsTheRightHandTurns) {
   EXPECT_GE(found.others.size(), 3U) << "the keyway";
   double nearest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < blades; ++k) {
-    const double angle = std::remainder(0.5 * std::numbers::pi + 2 * std::numbers::pi * k / blades, 2 * std::numbers::pi);
+    const double angle =
+        std::remainder(0.5 * std::numbers::pi + 2 * std::numbers::pi * k / blades, 2 * std::numbers::pi);
     nearest = std::min(nearest, std::abs(angle));
   }
   for (std::size_t k = 0; k < found.blades.size(); ++k) {
@@ -92,8 +94,9 @@ TEST(PropellerBlade, IsWhatTheDesignHoldsAndIsTold) {
   EXPECT_GT(image.header().box_min[2], 15.0);
   std::string notes;
   for (const std::string& note : loaded.notes) notes += note + "\n";
-  EXPECT_NE(notes.find("blade 2 of 4 blades about x, numbered as the right hand turns about it, from that nearest to +y"),
-            std::string::npos)
+  EXPECT_NE(
+      notes.find("blade 2 of 4 blades about x, numbered as the right hand turns about it, from that nearest to +y"),
+      std::string::npos)
       << notes;
   choice.faces = {"*"};
   EXPECT_THROW(load_design(path, choice), ToolError);

@@ -32,10 +32,10 @@ bool congruent(const FaceGroup& a, const FaceGroup& b) {
          (a.spread - b.spread).norm() <= kSpreadShare * size * size;
 }
 
-double between(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
+double angle_between(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
 
 /// Groups that a turn about the axis brings into each other, the largest area first.
-std::vector<std::vector<FaceGroup>> repeated(const std::vector<FaceGroup>& groups) {
+std::vector<std::vector<FaceGroup>> repeated_groups(const std::vector<FaceGroup>& groups) {
   std::vector<std::vector<FaceGroup>> classes;
   for (const FaceGroup& group : groups) {
     if (group.radius <= kOffAxis * size_of_group(group)) continue;
@@ -47,9 +47,8 @@ std::vector<std::vector<FaceGroup>> repeated(const std::vector<FaceGroup>& group
     }
   }
   std::erase_if(classes, [](const auto& one) { return one.size() < 2; });
-  std::ranges::stable_sort(classes, std::ranges::greater(), [](const auto& one) {
-    return one.front().area * static_cast<double>(one.size());
-  });
+  std::ranges::stable_sort(classes, std::ranges::greater(),
+                           [](const auto& one) { return one.front().area * static_cast<double>(one.size()); });
   return classes;
 }
 
@@ -59,7 +58,7 @@ bool add_parts(const std::vector<FaceGroup>& parts, std::vector<DesignBlade>& bl
   std::vector<std::size_t> taken(blades.size(), 0);
   for (const FaceGroup& part : parts) {
     std::vector<std::pair<double, std::size_t>> near;
-    for (std::size_t k = 0; k < blades.size(); ++k) near.emplace_back(between(part.angle, blades[k].angle), k);
+    for (std::size_t k = 0; k < blades.size(); ++k) near.emplace_back(angle_between(part.angle, blades[k].angle), k);
     std::ranges::sort(near);
     if (near[0].first > kClearlyNearer * near[1].first) return false;
     DesignBlade& blade = blades[near[0].second];
@@ -72,7 +71,7 @@ bool add_parts(const std::vector<FaceGroup>& parts, std::vector<DesignBlade>& bl
 /// That nearest to the first direction first, then as the right hand turns.
 void sort_blades(std::vector<DesignBlade>& blades) {
   const auto first = std::ranges::min_element(blades, [](const DesignBlade& a, const DesignBlade& b) {
-    const double more = between(a.angle, 0) - between(b.angle, 0);
+    const double more = angle_between(a.angle, 0) - angle_between(b.angle, 0);
     return std::abs(more) > kSameAngle ? more < 0 : a.angle > b.angle;
   });
   const double start = first->angle;
@@ -90,7 +89,7 @@ std::pair<DesignBlades, double> blades_about(const ShaftAxis& axis, const std::v
   DesignBlades found;
   found.axis = axis;
   const FaceGroups groups = group_faces(samples, neighbours, axis);
-  const std::vector<std::vector<FaceGroup>> classes = repeated(groups.groups);
+  const std::vector<std::vector<FaceGroup>> classes = repeated_groups(groups.groups);
   if (classes.empty()) return {found, 0};
   const std::vector<FaceGroup>& largest = classes.front();
   for (const FaceGroup& group : largest) found.blades.push_back({group.faces, group.angle});

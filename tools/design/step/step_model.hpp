@@ -31,8 +31,8 @@ class StepModel {
   /// unset name is no damage.
   void check_faces() const;
 
-  /// Throws ToolError where a shape is placed in a way that OpenCASCADE ignores: enlarged, or by an operator that it
-  /// does not know.
+  /// Throws ToolError where a shape is placed in a way that OpenCASCADE reads as another: enlarged, mirrored, or by an
+  /// operator that it does not know.
   void check_places() const;
 
  private:

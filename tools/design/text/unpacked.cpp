@@ -18,7 +18,8 @@ constexpr std::string_view kGzip = "\x1F\x8B", kZip = "PK\x03\x04";
 constexpr int kGzipWindow = 16 + MAX_WBITS, kRawWindow = -MAX_WBITS;
 constexpr std::size_t kPiece = std::size_t{1} << 16U;
 
-/// Inflates streams that stand one after the other, a piece at a time. zlib takes at most 4 GB at once: files are smaller.
+/// Inflates streams that stand one after the other, a piece at a time. zlib takes at most 4 GB at once: files are
+/// smaller.
 class Inflation {
  public:
   Inflation(std::string_view packed, int window) : window_(window) {
@@ -72,9 +73,10 @@ void each_piece_of(std::string_view packed, int window, const std::string& file,
     if (piece->empty()) return;
     size += piece->size();
     if (size > most) {
-      throw ToolError(fmt::format("{}: grows to more than {} MB when it is unpacked, which no blade needs; export fewer "
-                                  "parts",
-                                  file, most >> 20U));
+      throw ToolError(
+          fmt::format("{}: grows to more than {} MB when it is unpacked, which no blade needs; export fewer "
+                      "parts",
+                      file, most >> 20U));
     }
     use(*piece);
   }
@@ -91,8 +93,8 @@ std::string inflated(std::string_view packed, int window, const std::string& fil
 
 std::string unzipped(const std::string& content, const std::string& file, std::size_t most) {
   const ZipEntry entry = cad_entry(content, file);
-  std::string text = entry.packed_by == ZipMethod::stored ? std::string(entry.data)
-                                                          : inflated(entry.data, kRawWindow, file, most);
+  std::string text =
+      entry.packed_by == ZipMethod::stored ? std::string(entry.data) : inflated(entry.data, kRawWindow, file, most);
   const uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
   if (sum == entry.check_sum) return text;
   throw ToolError(fmt::format("{}: the check sum of {} is wrong; copy or pack it again", file, entry.name));
