@@ -96,6 +96,11 @@ constexpr std::array kOptions{
               "a face of the design to be used, by its number in compile with list, its name or a pattern such as "
               "BLADE*; once for each (default: all)",
               "[\"SUCTION\", \"PRESSURE\"]"},
+    FitOption{
+        "blade", NumberOption{&S::blade, 1, 100}, nullptr,
+        "the one blade of a whole propeller to be used, by its number in compile with list, which counts about the "
+        "axis (default: all; the start pose decides which of them was probed)",
+        "1"},
     FitOption{"allow_missing", FlagOption{&S::allow_missing}, nullptr,
               "go on without the faces of the design that cannot be read", "true"},
     FitOption{"probe_radius", LengthOption{&S::probe_radius},

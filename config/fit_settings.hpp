@@ -32,6 +32,7 @@ struct FitSettings {
   std::optional<ParameterWindow> window;
   std::optional<OutwardChoice> outward;
   std::optional<std::vector<std::string>> face;  ///< faces of the design that are used; numbers, names, patterns
+  std::optional<double> blade;                   ///< the one blade of a propeller that is used; a whole number
   std::optional<bool> allow_missing;             ///< faces that cannot be read are left out
   std::optional<Length> probe_radius;
   std::optional<Unit> units;

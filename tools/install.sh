@@ -6,7 +6,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libeigen3-dev libmodbus-dev libserialport-dev libocct-data-exchange-dev
-  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev libssl-dev nodejs python3)
+  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev libssl-dev zlib1g-dev nodejs python3)
 if [[ "${1:-}" == "--tests" ]]; then
   packages+=(libgtest-dev librapidcheck-dev libnlopt-dev mbpoll valgrind clang-format clang-tidy universal-ctags binutils git
     tmux dpkg-dev)

@@ -13,6 +13,7 @@
 #include "tools/batch/edge_zone.hpp"
 #include "tools/batch/side_check.hpp"
 #include "tools/batch/start_pairs.hpp"
+#include "tools/design/blade_choice.hpp"
 
 namespace bladefit {
 namespace {
@@ -161,8 +162,12 @@ std::string start_file_of(const FitSettings& settings) {
 }
 
 DesignChoice design_choice_of(const FitSettings& settings) {
-  return {settings.outward.value_or(OutwardOption::automatic), settings.face.value_or(std::vector<std::string>()),
-          settings.allow_missing.value_or(false)};
+  DesignChoice choice(settings.outward.value_or(OutwardOption::automatic),
+                      settings.face.value_or(std::vector<std::string>()), settings.allow_missing.value_or(false));
+  if (settings.blade) choice.blade = blade_number(*settings.blade);
+  choice.axis = settings.axis;
+  if (settings.units) choice.mm_per_unit = mm_per_unit(*settings.units);
+  return choice;
 }
 
 FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {

@@ -10,9 +10,11 @@
 #include <string_view>
 #include <vector>
 
+#include "config/fit_text.hpp"
 #include "core/geometry/surface/design_image.hpp"
 #include "tools/commands/design_list.hpp"
 #include "tools/commands/design_notes.hpp"
+#include "tools/design/blade_choice.hpp"
 #include "tools/design/image/c_array.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
@@ -24,8 +26,9 @@ namespace {
 
 struct CompileOptions {
   std::vector<std::string> designs, faces;
-  std::string output, c_array, outward = "auto";
-  bool list = false, allow_missing = false;
+  std::string output, c_array, outward = "auto", axis;
+  double blade = 0;  ///< 0: all of the design
+  bool list = false, allow_missing = false, compact = false;
 };
 
 constexpr const char* kCompileDescription = "Compile the faces of IGES or STEP files into a design image";
@@ -43,6 +46,10 @@ which there are no feet. Trimmed planes beside other faces, which close a solid 
 are left out unless they are named with --face; that is told. Patches have the numbers of the faces in the file (of faces named PATCH1, PATCH2,
 ... of a STEP file those), 0 first, so that STEP and IGES of the same system agree. --list shows all.
 
+One blade of a whole propeller: --blade N. Surfaces of revolution about the shaft are the hub; what is
+left hangs together in blades, numbered as the right hand turns about the shaft, from that nearest to +y
+(+z where the shaft is along y). --list tells them; --axis tells the shaft where the shape does not.
+
 Outward side: which side of the surface is away from the material decides between cut and weld.
   auto  found from the shape where sections close around the material, face by face where the file
         does not say how they look; else from closed shells; else you are asked
@@ -55,6 +62,8 @@ Examples:
   bladefit compile sheet.stp -o sheet.bfd --outward -
   bladefit compile propeller.stp --list
   bladefit compile propeller.stp -o blade.bfd --face "BLADE1*" --face 12
+  bladefit compile propeller.stp -o blade.bfd --blade 1
+  bladefit compile fan.igs -o fan.bfd --compact --c-array fan.c
   bladefit compile suction.igs pressure.igs -o blade.bfd
   bladefit compile fan.igs -o fan.bfd --c-array fan.c     (defines fan_design and fan_design_size)
 
@@ -129,13 +138,26 @@ std::vector<std::filesystem::path> paths_of(const CompileOptions& options) {
   return {options.designs.begin(), options.designs.end()};
 }
 
+DesignChoice choice_of(const CompileOptions& options) {
+  DesignChoice choice(outward_choice(options.outward), options.faces, options.allow_missing);
+  if (options.compact) choice.size = ImageSize::compact;
+  if (options.blade != 0) choice.blade = blade_number(options.blade);
+  if (options.axis.empty()) return choice;
+  ShaftAxis axis;
+  if (const Failure error = parse_axis(options.axis, axis)) {
+    throw ToolError(fmt::format("--axis {}: {}", options.axis, error.message));
+  }
+  choice.axis = axis;
+  return choice;
+}
+
 void compile(const CompileOptions& options) {
   if (options.list) {
     fmt::print("{}", design_list(paths_of(options)));
     return;
   }
   if (options.output.empty()) throw ToolError("compile: no output is given; name it with -o, or say --list");
-  const DesignChoice choice(outward_choice(options.outward), options.faces, options.allow_missing);
+  const DesignChoice choice = choice_of(options);
   check_outputs(options);
   const LoadedDesign design = load_design(paths_of(options), choice);
   const DesignImage image = open_compiled(options, design);
@@ -151,7 +173,7 @@ void add_compile_command(CLI::App& app, int& exit_code) {
   command->footer(kCompileHelp);
   command
       ->add_option("design", options->designs,
-                   "IGES or STEP files (.igs .iges .stp .step .p21) of one blade, or an image (.bfd)")
+                   "IGES or STEP files (.igs .iges .stp .step .p21 .stpz) of one blade, or an image (.bfd)")
       ->required()
       ->type_name("DESIGN");
   command->add_option("-o,--output", options->output, "Design image to write")->type_name("OUT.bfd");
@@ -160,7 +182,16 @@ void add_compile_command(CLI::App& app, int& exit_code) {
       ->add_option("--face", options->faces, "Face to use: number in --list, name or pattern; repeat it (default all)")
       ->type_name("NAME|N|GLOB")
       ->allow_extra_args(false);
+  command
+      ->add_option("--blade", options->blade,
+                   "Blade of a whole propeller to use: number in --list, about the axis (default all)")
+      ->type_name("N")
+      ->check(CLI::Range(1.0, 100.0));
+  command->add_option("--axis", options->axis, "Shaft about which --blade counts (default that which the shape tells)")
+      ->type_name("x|y|z|x0,y0,z0,i,j,k");
   command->add_flag("--allow-missing", options->allow_missing, "Go on without faces that cannot be read");
+  command->add_flag("--compact", options->compact,
+                    "Write an image a third to a quarter as large, for flash; feet are the same, searches slower");
   command->add_option("--c-array", options->c_array, "Also write the image as a C99 array, for flash")
       ->type_name("OUT.c");
   command->add_option("--outward", options->outward, "Side away from the material (default auto)")

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/geometry/surface/joint.hpp"
+#include "tools/design/blade_choice.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/design/nurbs/neighbours.hpp"
@@ -54,6 +55,7 @@ std::string design_list(const std::vector<std::filesystem::path>& paths) {
       fmt::format("{:>4}  {:<18}  {:<10}  {:<21}  {:<16}  {:>10}  {:<28}  {:>5}  {}\n", "face", "name", "layer", "kind",
                   "points, degrees", fmt::format("area {}2", unit_name(design.unit)), "middle", "trim", "beside");
   for (std::size_t k = 0; k < design.surfaces.size(); ++k) text += row(design, k, neighbours[k]);
+  for (const std::string& line : blade_lines(design)) text += line + "\n";
   for (const std::string& missing : design.missing) text += fmt::format("   -  cannot be read: {}\n", missing);
   for (const std::string& warning : design.warnings) text += fmt::format("note: {}\n", warning);
   return text;

@@ -29,9 +29,19 @@ struct ShowFlags {
 };
 
 /// Of the fit options those that say something of a design and of where points are on it.
-constexpr std::array<std::string_view, 12> kShowOptions = {
-    "leading_edge", "leading_edge_near", "rotation",        "outward", "face",      "allow_missing", "probe_radius",
-    "units",        "columns",           "ignore_approach", "axis",    "tip_radius"};
+constexpr std::array<std::string_view, 13> kShowOptions = {"leading_edge",
+                                                           "leading_edge_near",
+                                                           "rotation",
+                                                           "outward",
+                                                           "face",
+                                                           "blade",
+                                                           "allow_missing",
+                                                           "probe_radius",
+                                                           "units",
+                                                           "columns",
+                                                           "ignore_approach",
+                                                           "axis",
+                                                           "tip_radius"};
 
 constexpr const char* kShowDescription = "Show a design in a web browser, with points and the leading-edge zone on it";
 

@@ -78,8 +78,7 @@ std::vector<std::string> design_doubts(const DesignFile& design) {
     if (width >= kSliver * size) continue;
     doubts.push_back(fmt::format("{} is a sliver, {:.2g} mm wide", title(design.faces[k]), width));
   }
-  for (const Neighbours& pair : find_neighbours(design.surfaces, kApart_mm)) {
-    if (pair.gap_mm <= kClosed_mm) continue;
+  for (const Neighbours& pair : find_gaps(design.surfaces, kClosed_mm, kApart_mm)) {
     doubts.push_back(fmt::format("{} and {} run side by side up to {:.2g} mm apart: points between them have no foot",
                                  title(design.faces[pair.surface]), title(design.faces[pair.other]), pair.gap_mm));
   }

@@ -67,6 +67,12 @@ void keep_marked(DesignFile& design, const std::vector<bool>& kept) {
 
 }  // namespace
 
+void keep_numbers(DesignFile& design, const std::vector<std::size_t>& numbers) {
+  std::vector<bool> kept(design.faces.size(), false);
+  for (const std::size_t number : numbers) kept[number] = true;
+  keep_marked(design, kept);
+}
+
 void leave_flat_caps(DesignFile& design) {
   std::vector<bool> kept;
   double left_out = 0, whole = 0;

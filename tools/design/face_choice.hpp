@@ -19,6 +19,9 @@ namespace bladefit {
 /// Keeps the faces that one of `patterns` means, in the order of the file. Throws ToolError as faces_named does.
 void keep_faces(DesignFile& design, const std::vector<std::string>& patterns, const std::string& file);
 
+/// Keeps the faces of these numbers, which rise.
+void keep_numbers(DesignFile& design, const std::vector<std::size_t>& numbers);
+
 /// Leaves out trimmed planes beside other faces, with a line to the warnings: the root and the tip of a solid model,
 /// which close the blade where it was cut off. With them points beyond that cut would be judged by the cut. Not where
 /// nothing else would be left.

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/geometry/surface/design_image.hpp"
+#include "tools/design/blade_choice.hpp"
 #include "tools/design/choose_sides.hpp"
 #include "tools/design/design_doubts.hpp"
 #include "tools/design/face_choice.hpp"
@@ -23,9 +24,12 @@ std::string side_note(int sign, const std::string& reason) {
 }
 
 LoadedDesign load_image(const std::filesystem::path& path, const DesignChoice& choice) {
-  if (!choice.faces.empty() || !choice.outward.faces.empty()) {
+  if (choice.size == ImageSize::compact) {
+    throw ToolError(fmt::format("{}: is compiled already; --compact needs the IGES or STEP file", path.string()));
+  }
+  if (!choice.faces.empty() || choice.blade || !choice.outward.faces.empty()) {
     throw ToolError(
-        fmt::format("{}: a compiled design has no names of faces; choose faces and their sides when it is "
+        fmt::format("{}: a compiled design has no names of faces; choose faces, blade and sides when it is "
                     "compiled",
                     path.string()));
   }
@@ -49,6 +53,18 @@ LoadedDesign load_image(const std::filesystem::path& path, const DesignChoice& c
   design.notes.push_back(
       side_note(sign, sign == stored ? "as asked and as stored" : "as asked; the image had the other one"));
   return design;
+}
+
+void choose_faces(DesignFile& design, const DesignChoice& choice, const std::string& file) {
+  if (!choice.faces.empty() && choice.blade) {
+    throw ToolError("--face and --blade: both choose faces of the design; leave one out");
+  }
+  if (!choice.faces.empty()) return keep_faces(design, choice.faces, file);
+  if (!choice.allow_missing) refuse_missing(design, file);
+  if (!choice.blade) return;
+  std::optional<ShaftAxis> axis = choice.axis;
+  if (axis) axis->point *= choice.mm_per_unit.value_or(mm_per_unit(design.unit));
+  keep_blade(design, *choice.blade, axis, file);
 }
 
 }  // namespace
@@ -88,16 +104,14 @@ LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const 
   const std::string file = paths.front().string();
   if (paths.size() == 1 && lower_extension(paths.front()) == ".bfd") return load_image(paths.front(), choice);
   DesignFile design = read_designs(paths);
-  if (!choice.faces.empty()) {
-    keep_faces(design, choice.faces, file);
-  } else if (!choice.allow_missing) {
-    refuse_missing(design, file);
-  }
+  choose_faces(design, choice, file);
   if (choice.faces.empty()) leave_flat_caps(design);
   if (design.surfaces.empty()) throw ToolError(fmt::format("{}: no face that can be read is left", file));
   const OutwardSide side = choose_sides(design, choice.outward, file);
-  LoadedDesign loaded{
-      write_image(design.surfaces, design.unit, side.sign), design.warnings, trim_warning(design, file), {}};
+  LoadedDesign loaded{write_image(design.surfaces, design.unit, side.sign, choice.size),
+                      design.warnings,
+                      trim_warning(design, file),
+                      {}};
   for (const DesignFace& face : design.faces) loaded.names.push_back(face.name);
   const std::vector<std::string> doubts = design_doubts(design);
   loaded.notes.insert(loaded.notes.end(), doubts.begin(), doubts.end());

@@ -1,11 +1,14 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "config/outward_option.hpp"
+#include "core/inspection/shaft_axis.hpp"
+#include "tools/design/image/image_size.hpp"
 #include "tools/design/nurbs/design_file.hpp"
 
 namespace bladefit {
@@ -27,6 +30,10 @@ struct DesignChoice {
   OutwardChoice outward;
   std::vector<std::string> faces;  ///< as faces_named() reads them; none = all
   bool allow_missing = false;      ///< faces that cannot be read are left out
+  ImageSize size = ImageSize::fast;
+  std::optional<std::size_t> blade;   ///< of a propeller, as keep_blade() counts; none = all faces
+  std::optional<ShaftAxis> axis;      ///< about which its blades repeat, its point in units of `mm_per_unit`
+  std::optional<double> mm_per_unit;  ///< none = those of the design file
 };
 
 /// The faces of one blade from several CAD files; patches keep the order of the files. Throws ToolError as read_design
@@ -35,7 +42,7 @@ struct DesignChoice {
 
 /// The design image of `path`: IGES and STEP are compiled in memory, .bfd is read as it is and validated.
 /// A .bfd's side is turned where one is asked for; it has no faces to choose. Throws ToolError as read_design does, for
-/// an image that is not valid, as faces_named() and choose_sides() do, and where faces cannot be read.
+/// an image that is not valid, as faces_named(), keep_blade() and choose_sides() do, and where faces cannot be read.
 LoadedDesign load_design(const std::filesystem::path& path, const DesignChoice& choice);
 
 /// The faces of one blade from several files, in this order; all other things as above. One file may be a .bfd.

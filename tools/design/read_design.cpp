@@ -23,8 +23,7 @@ struct OtherKind {
 };
 constexpr const char* kFromCad = "export the blade from the CAD system as STEP (AP214 or AP242) or IGES";
 constexpr const char* kFromMesh = "a mesh has no surface to judge by: export the CAD model as STEP or IGES";
-constexpr const char* kUnpack = "unpack it (gunzip -c FILE > design.stp) and give that";
-constexpr std::array<OtherKind, 18> kOtherKinds = {
+constexpr std::array<OtherKind, 16> kOtherKinds = {
     {{".jt", kFromCad},
      {".x_t", kFromCad},
      {".x_b", kFromCad},
@@ -39,8 +38,6 @@ constexpr std::array<OtherKind, 18> kOtherKinds = {
      {".obj", kFromMesh},
      {".ply", kFromMesh},
      {".3mf", kFromMesh},
-     {".gz", kUnpack},
-     {".stpz", kUnpack},
      {".zip", "unpack it and give the STEP or IGES file in it"},
      {".stpx", "STEP in XML is not read: export the blade as STEP (.stp)"}}};
 
@@ -61,14 +58,15 @@ std::string merge_spans(NurbsSurface& surface) {
 }
 
 DesignFile read_unchecked(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string last = lower_extension(path), extension = last == ".gz" ? lower_extension(path.stem()) : last;
   if (extension == ".igs" || extension == ".iges") return cad_library().read_iges(path);
-  if (extension == ".stp" || extension == ".step" || extension == ".p21") return cad_library().read_step(path);
+  if (extension == ".stp" || extension == ".step" || extension == ".p21" || extension == ".stpz")
+    return cad_library().read_step(path);
   const auto other = std::ranges::find(kOtherKinds, extension, &OtherKind::extension);
-  throw ToolError(
-      fmt::format("{}: {} \"{}\"; {}", path.string(),
-                  other == kOtherKinds.end() ? "unknown kind of design" : "cannot read designs of kind", extension,
-                  other == kOtherKinds.end() ? "give a file named .igs, .iges, .stp, .step or .p21" : other->way));
+  throw ToolError(fmt::format(
+      "{}: {} \"{}\"; {}", path.string(),
+      other == kOtherKinds.end() ? "unknown kind of design" : "cannot read designs of kind", extension,
+      other == kOtherKinds.end() ? "give a file named .igs, .iges, .stp, .step, .stpz or .p21" : other->way));
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST(FitOptions, KeysAreDifferentAndHaveHelp) {
     EXPECT_GT(option.help.size(), 10U) << option.key;
     EXPECT_EQ(option.help.find("--"), std::string_view::npos) << option.key;
   }
-  EXPECT_EQ(keys.size(), 29U);
+  EXPECT_EQ(keys.size(), 30U);
   EXPECT_EQ(flag_of(option_of("leading_edge")), "--leading-edge");
 }
 

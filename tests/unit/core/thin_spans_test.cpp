@@ -1,5 +1,6 @@
 // Lofts with knots at very uneven distances: spans that are hair-thin, and sheared. Every foot is the nearest and
-// proven.
+// proven. Where control points are noisier than their spans are wide (0.01 mm beside 6e-8 mm) the surface folds over
+// itself: there it has no one normal, and a foot may be told as not proven.
 
 #include <gtest/gtest.h>
 
@@ -17,9 +18,10 @@ constexpr double kOff = 1e-9;  ///< no foot is farther than the nearest by more 
 
 struct Loft {
   int spans;
-  double least;     ///< the thinnest spans, of the range
-  double noise_mm;  ///< of the control points
-  bool turned;      ///< the thin way is v
+  double least;      ///< the thinnest spans, of the range
+  double noise_mm;   ///< of the control points
+  bool turned;       ///< the thin way is v
+  int unproven = 0;  ///< feet in 600 that may be told as not proven
 };
 
 /// Spans whose widths are spread over the decades from `least` to 1.
@@ -109,14 +111,14 @@ TEST_P(ThinSpans, FeetAreNearestAndProven) {
     }
   }
   std::printf("[ figures  ] at most %u pieces\n", most);
-  EXPECT_EQ(unproven, 0);
+  EXPECT_LE(unproven, GetParam().unproven);
   EXPECT_EQ(wrong, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lofts, ThinSpans,
                          ::testing::Values(Loft{60, 1e-9, 0.0, false}, Loft{60, 1e-9, 1e-4, false},
                                            Loft{120, 1e-9, 0.01, false}, Loft{60, 1e-6, 1e-4, true},
-                                           Loft{120, 1e-9, 1e-3, true}));
+                                           Loft{120, 1e-9, 1e-3, true}, Loft{120, 1e-9, 0.01, true, 1}));
 
 }  // namespace
 }  // namespace bladefit::testing

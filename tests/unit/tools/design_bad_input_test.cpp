@@ -187,7 +187,7 @@ TEST(DesignBadInput, ForeignFiles) {
   expect_message(message_of("a.stp", good_iges()), "not a STEP file");
   expect_message(message_of("a.sldprt", "x"), "cannot read designs of kind \".sldprt\"; export the blade");
   expect_message(message_of("a.xyz", "x"), "unknown kind of design \".xyz\"");
-  expect_message(message_of("a.stp", "\x1F\x8B\x08"), "unpack it");
+  expect_message(message_of("a.stp", "\x1F\x8B\x08"), "damaged or cut off");
 }
 
 TEST(DesignBadInput, MissingFileAndFolder) {

@@ -207,7 +207,8 @@ TEST(DesignKinds, EachPatchOfAnImageHasItsOwnSide) {
 TEST(DesignKinds, FilesThatCannotBeReadNameTheWayOn) {
   expect_refusal("a.jt", "x", "as STEP");
   expect_refusal("a.stl", "x", "a mesh has no surface");
-  expect_refusal("a.stpz", "x", "unpack it");
+  expect_refusal("a.zip", "x", "unpack it");
+  expect_refusal("a.gz", "x", "unknown kind of design");
   expect_refusal("a.igs", "solid blade\n", "mesh");
   EXPECT_THROW(read_design("/dev/zero"), ToolError);
   const ScratchFolder folder;

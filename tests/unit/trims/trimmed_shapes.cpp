@@ -1,16 +1,20 @@
 #include "tests/unit/trims/trimmed_shapes.hpp"
 
 #include <BRepAlgoAPI_Common.hxx>
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepLib.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2dAPI_PointsToBSpline.hxx>
@@ -172,6 +176,13 @@ TopoDS_Shape blade_with_fillet() {
   return fillet.Shape();
 }
 
+/// The bore passes beside the poles, which stay on the face, and not over the seam.
+TopoDS_Shape bored_ball() {
+  const gp_Ax2 beside(gp_Pnt(-22, 0, -60), gp_Dir(0, 0, 1));
+  return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(50.0).Shape(), BRepPrimAPI_MakeCylinder(beside, 15.0, 120.0).Shape())
+      .Shape();
+}
+
 /// Its tip cut by a cylinder about the hub, as tips are.
 TopoDS_Shape blade_with_trimmed_tip() {
   const TopoDS_Shape limit = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-60, 0, 0), gp_Dir(1, 0, 0)), 70.0, 120.0).Shape();
@@ -200,6 +211,18 @@ TopoDS_Shape two_half_faces() {
 
 }  // namespace
 
+TopoDS_Shape propeller_body(int blades) {
+  TopoDS_Shape body = hub();
+  for (int k = 0; k < blades; ++k) {
+    gp_Trsf turn;
+    turn.SetRotation(gp_Ax1(gp_Pnt(), gp_Dir(1, 0, 0)), 2 * std::numbers::pi * k / blades);
+    body = BRepAlgoAPI_Fuse(body, BRepBuilderAPI_Transform(blade_body(), turn).Shape()).Shape();
+  }
+  const gp_Ax2 along_x(gp_Pnt(-50, 0, 0), gp_Dir(1, 0, 0));
+  body = BRepAlgoAPI_Cut(body, BRepPrimAPI_MakeCylinder(along_x, 8.0, 100.0).Shape()).Shape();
+  return BRepAlgoAPI_Cut(body, BRepPrimAPI_MakeBox(gp_Pnt(-50, -2, 0), gp_Pnt(50, 2, 11)).Shape()).Shape();
+}
+
 TrimmedShape trimmed_shape(std::size_t index) {
   switch (index) {
     case 0:
@@ -212,8 +235,10 @@ TrimmedShape trimmed_shape(std::size_t index) {
       return {"two half faces", two_half_faces()};
     case 4:
       return {"trimmed tip", blade_with_trimmed_tip(), true};
-    default:
+    case 5:
       return {"root fillet", blade_with_fillet(), true};
+    default:
+      return {"bored ball", bored_ball(), true};
   }
 }
 

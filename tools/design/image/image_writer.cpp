@@ -77,11 +77,11 @@ std::uint32_t creases_only(std::uint32_t ends, const ImageSpan& span, const Bezi
 }
 
 void append_spans(const BezierPatch& bezier, const std::vector<TrimLoop>& loops, int outward, double near,
-                  ImageParts& parts) {
+                  ImageSize size, ImageParts& parts) {
   const auto patch = static_cast<std::uint32_t>(parts.patches.size());
   const std::size_t first = parts.coefficients.size();
   std::size_t k = 0;
-  for (const SpanBounding& bounding : bound_spans(bezier, outward, near)) {
+  for (const SpanBounding& bounding : bound_spans(bezier, outward, near, size)) {
     ImageSpan span{};
     span.patch = patch;
     span.iu = static_cast<std::uint32_t>(k / bezier.spans_v());
@@ -99,7 +99,7 @@ void append_spans(const BezierPatch& bezier, const std::vector<TrimLoop>& loops,
   parts.taylor.insert(parts.taylor.end(), bezier.taylor.begin(), bezier.taylor.end());
 }
 
-void append_patch(const NurbsSurface& surface, int outward, double near, ImageParts& parts) {
+void append_patch(const NurbsSurface& surface, int outward, double near, ImageSize size, ImageParts& parts) {
   const BezierPatch bezier = extract_bezier(surface);
   ImagePatch patch{};
   patch.degree_u = static_cast<std::uint32_t>(bezier.degree_u);
@@ -115,7 +115,7 @@ void append_patch(const NurbsSurface& surface, int outward, double near, ImagePa
   const std::vector<TrimLoop> loops = pieces_of(surface.trims, bezier);
   append_trims(loops, bezier, patch.first_span, parts.trims);
   patch.slab_count = static_cast<std::uint32_t>(parts.trims.slabs.size()) - patch.first_slab;
-  append_spans(bezier, loops, surface.reversed ? -outward : outward, near, parts);
+  append_spans(bezier, loops, surface.reversed ? -outward : outward, near, size, parts);
   parts.patches.push_back(patch);
 }
 
@@ -165,10 +165,11 @@ void seal(std::vector<std::byte>& image) {
 
 }  // namespace
 
-std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward) {
+std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward,
+                                   ImageSize size) {
   ImageParts parts;
   const double near = kNear * half_diagonal(surfaces);
-  for (const NurbsSurface& surface : surfaces) append_patch(surface, outward, near, parts);
+  for (const NurbsSurface& surface : surfaces) append_patch(surface, outward, near, size, parts);
   if (parts.leaves.size() + parts.trims.runs.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
     throw ToolError("the design has too many knot spans; export the blade with fewer knots");
   }

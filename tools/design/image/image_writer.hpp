@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/geometry/surface/design_image.hpp"
+#include "tools/design/image/image_size.hpp"
 #include "tools/design/nurbs/nurbs_surface.hpp"
 
 namespace bladefit {
@@ -10,7 +11,8 @@ namespace bladefit {
 /// Compiles surfaces that check_surface has accepted into a design image: Bezier spans with their normal cones, the
 /// bounding tree, header and CRC. `outward` is +1 or -1. The same surfaces give the same bytes.
 /// Throws ToolError where the design has too many spans for the format.
-std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward);
+std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward,
+                                   ImageSize size = ImageSize::fast);
 
 /// Turns the outward side of a valid image to `outward` (+1 or -1), normal cones and CRC included.
 void set_outward(std::vector<std::byte>& image, int outward);

@@ -96,4 +96,12 @@ std::vector<ImageLeaf> cut_into_leaves(const BezierSpan& span, double near) {
   return leaves;
 }
 
+std::vector<ImageLeaf> keep_as_leaf(const BezierSpan& span, double near) {
+  const LocalRect whole{};
+  const ImageBounds bounds = leaf_bounds(span, whole);
+  const double along_s = Vec3(bounds.derivative[0]).norm(), along_t = Vec3(bounds.derivative[1]).norm();
+  if (along_s > kHairThin * along_t || along_t > kHairThin * along_s) return cut_into_leaves(span, near);
+  return {{0, 0, whole.s_min, whole.s_max, whole.t_min, whole.t_max, bounds}};
+}
+
 }  // namespace bladefit

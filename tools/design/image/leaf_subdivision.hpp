@@ -11,4 +11,8 @@ namespace bladefit {
 inline constexpr int kLeafCuts = 6;
 std::vector<ImageLeaf> cut_into_leaves(const BezierSpan& span, double near);
 
+/// The whole span as one leaf, for a small image: the search cuts it into pieces itself, each time. Hair-thin spans are
+/// cut as above, since along them that would take too many.
+std::vector<ImageLeaf> keep_as_leaf(const BezierSpan& span, double near);
+
 }  // namespace bladefit

@@ -33,11 +33,11 @@ Box control_box(const BezierNet& net) {
   return box;
 }
 
-SpanBounding bounding_of(const BezierPatch& bezier, std::size_t index, int outward, double near) {
+SpanBounding bounding_of(const BezierPatch& bezier, std::size_t index, int outward, double near, ImageSize size) {
   const BezierSpan span = bezier.span(index);
   SpanBounding out;
   out.cone = normal_cone({span.net, bezier.span_size()}, bezier.degree_u, bezier.degree_v, outward);
-  out.leaves = cut_into_leaves(span, near);
+  out.leaves = size == ImageSize::compact ? keep_as_leaf(span, near) : cut_into_leaves(span, near);
   for (const ImageLeaf& leaf : out.leaves) {
     BezierNet restricted;
     restrict_net(span.net, span.degree_u, span.degree_v, {leaf.s_min, leaf.s_max, leaf.t_min, leaf.t_max}, restricted);
@@ -48,11 +48,11 @@ SpanBounding bounding_of(const BezierPatch& bezier, std::size_t index, int outwa
 
 }  // namespace
 
-std::vector<SpanBounding> bound_spans(const BezierPatch& bezier, int outward, double near) {
+std::vector<SpanBounding> bound_spans(const BezierPatch& bezier, int outward, double near, ImageSize size) {
   std::vector<SpanBounding> spans(bezier.spans_u() * bezier.spans_v());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (std::size_t k = next++; k < spans.size(); k = next++) spans[k] = bounding_of(bezier, k, outward, near);
+    for (std::size_t k = next++; k < spans.size(); k = next++) spans[k] = bounding_of(bezier, k, outward, near, size);
   };
   std::vector<std::future<void>> others;
   for (unsigned k = 1; k < std::thread::hardware_concurrency(); ++k)

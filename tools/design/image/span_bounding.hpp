@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "core/geometry/surface/design_image.hpp"
+#include "tools/design/image/image_size.hpp"
 #include "tools/design/image/normal_cone.hpp"
 #include "tools/design/image/tree_builder.hpp"
 #include "tools/design/nurbs/bezier_extraction.hpp"
@@ -15,9 +16,10 @@ struct SpanBounding {
   std::vector<Box> boxes;         ///< of the control points of each leaf [mm]
 };
 
-/// The bounds of every span of a patch. `outward` and `near` as of normal_cone() and cut_into_leaves().
+/// The bounds of every span of a patch. `outward` and `near` as of normal_cone() and cut_into_leaves(),
+/// which cuts the spans unless `size` is compact.
 /// Works on all cores: this is most of the time of compiling a design, a tenth of a millisecond a span and core. The
 /// outcome does not depend on their number.
-std::vector<SpanBounding> bound_spans(const BezierPatch& bezier, int outward, double near);
+std::vector<SpanBounding> bound_spans(const BezierPatch& bezier, int outward, double near, ImageSize size);
 
 }  // namespace bladefit

@@ -119,8 +119,7 @@ double in_unit(double mm, double mm_per_unit) {
 
 std::string iges_real(double value) {
   std::string text = fmt::format("{}", value);
-  const std::size_t exponent = std::min(text.find('e'), text.size());
-  if (text.find('.') == std::string::npos) text.insert(exponent, 1, '.');
+  if (std::ranges::count(text, '.') == 0) text.insert(std::ranges::find(text, 'e'), '.');
   std::replace(text.begin(), text.end(), 'e', 'D');
   return text;
 }

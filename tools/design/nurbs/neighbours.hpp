@@ -16,4 +16,9 @@ struct Neighbours {
 /// of surfaces whose boxes meet.
 [[nodiscard]] std::vector<Neighbours> find_neighbours(const std::vector<NurbsSurface>& surfaces, double reach_mm);
 
+/// Gaps: of the pairs above those more than `closed_mm` apart, by edges beside which no other face is within that.
+/// Where a narrow face lies between two others there is none. Cost: as above.
+[[nodiscard]] std::vector<Neighbours> find_gaps(const std::vector<NurbsSurface>& surfaces, double closed_mm,
+                                                double reach_mm);
+
 }  // namespace bladefit

@@ -230,8 +230,9 @@ FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
   measure(*spline, trimmed.spline_box, trimmed.scale, result);
   result.trims_off = loops.off_mm;
   result.trims_fault = std::move(loops.fault);
-  result.surface.reversed =
-      (face.face.Orientation() == TopAbs_REVERSED) != (place.Transformation().IsNegative() == Standard_True);
+  // gp_Trsf::IsNegative looks at the scale alone, which a mirror that is given by its axes leaves at 1.
+  const bool mirrored = place.Transformation().HVectorialPart().Determinant() < 0;
+  result.surface.reversed = (face.face.Orientation() == TopAbs_REVERSED) != mirrored;
   return result;
 }
 

@@ -120,6 +120,7 @@ DesignFile read_model(std::string text, const std::string& file) {
   const Handle(StepData_StepModel) model = reader.StepModel();
   const StepModel facts(model, reader.WS()->Graph(), file);
   facts.check_faces();
+  facts.check_places();
   for (const Handle(StepShape_FaceSurface) & face : facts.faces()) write_implied_knots(*face);
   const LengthUnit unit = read_step_unit(*model, file);
   DesignFile design;
