@@ -56,7 +56,9 @@ TEST(RunWeb, WhatIsWrongIsSaidBeforeTheSessionBegins) {
     EXPECT_EQ(run.exit_code(), 2) << panel;
     return run.err();
   };
-  EXPECT_NE(refusal("", {"--http", "nonsense"}).find("--http nonsense: is no address"), std::string::npos);
+  const std::string nonsense = refusal("", {"--http", "nonsense"});
+  if (nonsense.find("built without the web panel") != std::string::npos) GTEST_SKIP() << nonsense;
+  EXPECT_NE(nonsense.find("--http nonsense: is no address"), std::string::npos);
   EXPECT_NE(refusal("http = \"8080\"\n").find("panel.http 8080: is no address"), std::string::npos);
   EXPECT_NE(refusal("http = \"127.0.0.1:0\"\nhttp_token_file = \"none\"\n").find("cannot be read"), std::string::npos);
   write_file(scratch / "short", "secret\n");

@@ -16,6 +16,7 @@
 #include "firmware_bridge/host/panel/panel_address.hpp"
 #include "tools/batch/tip_radius.hpp"
 #include "tools/files/output_file.hpp"
+#include "tools/web/web_panel.hpp"
 
 namespace bladefit {
 namespace {
@@ -109,10 +110,16 @@ std::string read_token(const std::string& path) {
 std::optional<WebSettings> plan_web(const PanelSettings& file, const std::string& flag) {
   const std::string address = flag.empty() ? file.http.value_or("") : flag;
   if (address.empty()) return std::nullopt;
+  const char* const name = flag.empty() ? "panel.http" : "--http";
+  if (!WebPanel::has_page()) {
+    throw ToolError(fmt::format(
+        "{} {}: this program was built without the web panel; install Node.js (tools/install.sh) and build it "
+        "again where npm's registry is reached, or leave this out",
+        name, address));
+  }
   WebSettings web;
   if (!parse_address(address, web.host, web.port)) {
-    throw ToolError(fmt::format("{} {}: is no address; use HOST:PORT, for example 127.0.0.1:8080",
-                                flag.empty() ? "panel.http" : "--http", address));
+    throw ToolError(fmt::format("{} {}: is no address; use HOST:PORT, for example 127.0.0.1:8080", name, address));
   }
   if (file.allow) web.allow = *file.allow;
   if (file.http_token_file) web.token = read_token(*file.http_token_file);

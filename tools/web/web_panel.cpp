@@ -242,12 +242,9 @@ void WebPanel::Server::follow(const httplib::Request& request, httplib::Response
 WebPanel::WebPanel() = default;
 WebPanel::~WebPanel() = default;
 
+bool WebPanel::has_page() { return !page_files().empty(); }
+
 Failure WebPanel::open(const WebSettings& settings, WebSource source) {
-  if (page_files().empty()) {
-    return bad_input(
-        "--http: this program was built without the web panel; install Node.js and npm (tools/install.sh) and build it "
-        "again, or leave panel.http out");
-  }
   server_ = std::make_unique<Server>(settings, std::move(source));
   return server_->listen();
 }

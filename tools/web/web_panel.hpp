@@ -22,8 +22,10 @@ class WebPanel {
   WebPanel(const WebPanel&) = delete;
   WebPanel& operator=(const WebPanel&) = delete;
 
-  /// Starts to listen. bad_input: the program has no page in it, or there is no such address here; device: the port is
-  /// in use.
+  /// Whether the program was built with the page.
+  [[nodiscard]] static bool has_page();
+
+  /// Starts to listen. device: the port is in use, or there is no such address here.
   [[nodiscard]] Failure open(const WebSettings& settings, WebSource source);
 
   /// What to type in a browser: http://HOST:PORT/. After open().

@@ -9,7 +9,6 @@
 #include "tests/support/http_client.hpp"
 #include "tests/support/panel_state.hpp"
 #include "tests/support/process.hpp"
-#include "tools/web/page_files.hpp"
 #include "tools/web/web_panel.hpp"
 
 namespace bladefit {
@@ -42,7 +41,7 @@ Verdict shown_point(std::uint32_t sequence, double distance) {
 class WebPanelTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (page_files().empty()) GTEST_SKIP() << "built without the page";
+    if (!WebPanel::has_page()) GTEST_SKIP() << "built without the page";
     open(kTestToken);
   }
 
