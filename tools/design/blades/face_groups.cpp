@@ -107,6 +107,7 @@ Eigen::Vector3d across(const ShaftAxis& axis) {
 FaceGroups group_faces(const std::vector<std::vector<FaceSample>>& samples, const std::vector<Neighbours>& neighbours,
                        const ShaftAxis& axis) {
   std::vector<bool> hub;
+  hub.reserve(samples.size());
   for (const auto& face : samples) hub.push_back(of_revolution(face, axis));
   std::vector<std::size_t> number = numbers_of_groups(samples.size(), neighbours, hub);
   take_tips(samples, neighbours, axis, hub, number);

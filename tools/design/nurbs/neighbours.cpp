@@ -174,6 +174,7 @@ std::vector<Neighbours> pairs_beside(const std::vector<std::vector<Edge>>& edges
 std::vector<Neighbours> find_neighbours(const std::vector<NurbsSurface>& surfaces, double reach_mm) {
   const std::vector<Outline> outlines = outlines_of(surfaces);
   std::vector<std::vector<Edge>> edges;
+  edges.reserve(outlines.size());
   for (const Outline& outline : outlines) edges.push_back(outline.edges);
   return pairs_beside(edges, outlines, reach_mm);
 }
