@@ -29,9 +29,10 @@ class PrintFolder {
  public:
   PrintFolder() {
     std::string name = (fs::temp_directory_path() / "bladefit-print-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
+    if (mkdtemp(name.data()) == nullptr) {
       throw ToolError(fmt::format("{}: no folder can be made there; set TMPDIR to one that can be written", name),
                       ToolError::Kind::device);
+    }
     path_ = name;
   }
   ~PrintFolder() {

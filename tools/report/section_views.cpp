@@ -173,9 +173,10 @@ std::string section_view(const Result& result, std::size_t index, const Toleranc
   const double factor = round_factor(kBand, unit, view.scale);
   const std::string curve = curve_path(view);
   std::string svg;
-  if (judged)
+  if (judged) {
     svg +=
         fmt::format("<path class=\"band\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n", 2 * unit * factor * view.scale, curve);
+  }
   svg += fmt::format("<path class=\"curve\" d=\"{}\"/>\n", curve);
   for (std::size_t k = hidden; k < shown.size(); ++k) svg += whisker(result, view, shown[k], factor, scale);
   svg += fmt::format(
