@@ -19,6 +19,7 @@
 #include "tools/commands/fit_flags.hpp"
 #include "tools/commands/run_plan.hpp"
 #include "tools/commands/run_stop_flag.hpp"
+#include "tools/commands/session_recorder.hpp"
 #include "tools/files/exit_codes.hpp"
 #include "tools/files/message.hpp"
 #include "tools/files/output_file.hpp"
@@ -65,7 +66,7 @@ std::string panel_address(const RunPlan& plan, const Host& host) {
   return fmt::format("{}:{}", plan.host.panel.host, host.panel_port());
 }
 
-void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
+void watch(Host& host, const RunPlan& plan, const StopFlag& stop, SessionRecorder& recorder) {
   std::optional<PanelDisplay> display;
   if (!plan.headless) {
     display.emplace(panel_address(plan, host), [&host](PanelState& state) {
@@ -74,6 +75,7 @@ void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
     });
   }
   while (!host.wait_for_end(kTurn)) {
+    recorder.turn();
     if (display) display->turn();
     if (stop.requested() || (display && display->is_cut_off())) host.request_stop();
   }
@@ -145,7 +147,7 @@ WrittenFiles write_files(const RunPlan& plan, const Result& result) {
 
 /// Writes what the session came to, also after a fault: then of the points stored before it. Whatever cannot be written
 /// keeps nothing else from it.
-int conclude(const RunPlan& plan, Host& host, const Words& words, const ReportRecord& record) {
+int conclude(const RunPlan& plan, Host& host, const Words& words, SessionRecorder& recorder) {
   SessionPoints points;
   const SessionResult session = host.finish(points);
   if (session.error) tell(session.error.message);
@@ -160,7 +162,8 @@ int conclude(const RunPlan& plan, Host& host, const Words& words, const ReportRe
                     plan.host.session_directory));
   }
   Result result = result_of(plan.image, plan.fit, points.rows, session.report, stream, plan.host.session_directory);
-  result.record = record;
+  recorder.turn();
+  result.record = recorder.record();
   result.record->ended = utc_now();
   host.conclude({result.verdict.state, result.verdict.codes()});
   const WrittenFiles files = write_files(plan, result);
@@ -184,27 +187,6 @@ std::vector<std::string> stray_parts(const RunPlan& plan) {
   return parts;
 }
 
-/// Writes what reports of the session will need, so that they have it also where this run is killed. Whatever cannot be
-/// written is told, and keeps the session from nothing.
-ReportRecord begin_record(const RunPlan& plan) {
-  const std::string& directory = plan.host.session_directory;
-  ReportRecord record;
-  const auto part = [](const auto& step) {
-    try {
-      step();
-    } catch (const ToolError& error) {
-      tell(error.what());
-    }
-  };
-  part([&] { record = report_record_of(plan.report, plan.files); });
-  part([&] {
-    if (const auto before = read_session_record(directory)) record = resumed(*before, record);
-  });
-  part([&] { write_session_record(directory, record); });
-  part([&] { write_session_design(directory, plan.design.image); });
-  return record;
-}
-
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
   const Words words(plan.json == "-" ? stderr : stdout);
@@ -221,16 +203,16 @@ int run(const RunFlags& flags) {
   if (const Failure failure = host.start()) throw ToolError(failure);
   for (const std::string& part : stray_parts(plan))
     tell(fmt::format("{}: left by a run that was killed; removed", part));
-  const ReportRecord record = begin_record(plan);
+  SessionRecorder recorder(plan);
   const std::string begun = fmt::format("Points from {}, session in {}, panel at {}\n", source_name(plan.source),
                                         plan.host.session_directory, panel_address(plan, host));
   if (!plan.volume.quiet) std::fputs(begun.c_str(), words.file);
   clock.done("session begun");
   std::fflush(words.file);
-  watch(host, plan, stop);
+  watch(host, plan, stop, recorder);
   clock.done("points taken");
   notices.flush();
-  const int exit_code = conclude(plan, host, words, record);
+  const int exit_code = conclude(plan, host, words, recorder);
   clock.done("result written");
   if (exit_code != kBadInput) linger(plan, stop, host.panel_port(), words.file);
   return exit_code;
