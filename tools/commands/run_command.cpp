@@ -17,6 +17,7 @@
 #include "tools/commands/run_conclusion.hpp"
 #include "tools/commands/run_plan.hpp"
 #include "tools/commands/run_stop_flag.hpp"
+#include "tools/commands/session_recorder.hpp"
 #include "tools/files/exit_codes.hpp"
 #include "tools/files/message.hpp"
 #include "tools/panel/panel_display.hpp"
@@ -82,7 +83,7 @@ std::string web_address(const RunPlan& plan, const WebPanel& web) {
   return plan.web ? fmt::format(", web panel at {}", web.address()) : "";
 }
 
-void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
+void watch(Host& host, const RunPlan& plan, const StopFlag& stop, SessionRecorder& recorder) {
   std::optional<PanelDisplay> display;
   if (!plan.headless) {
     display.emplace(panel_address(plan, host), [&host](PanelState& state) {
@@ -91,6 +92,7 @@ void watch(Host& host, const RunPlan& plan, const StopFlag& stop) {
     });
   }
   while (!host.wait_for_end(kTurn)) {
+    recorder.turn();
     if (display) display->turn();
     if (stop.requested() || (display && display->is_cut_off())) host.request_stop();
   }
@@ -116,27 +118,6 @@ std::vector<std::string> stray_parts(const RunPlan& plan) {
   return parts;
 }
 
-/// Writes what reports of the session will need, so that they have it also where this run is killed. Whatever cannot be
-/// written is told, and keeps the session from nothing.
-ReportRecord begin_record(const RunPlan& plan) {
-  const std::string& directory = plan.host.session_directory;
-  ReportRecord record;
-  const auto part = [](const auto& step) {
-    try {
-      step();
-    } catch (const ToolError& error) {
-      tell(error.what());
-    }
-  };
-  part([&] { record = report_record_of(plan.report, plan.files); });
-  part([&] {
-    if (const auto before = read_session_record(directory)) record = resumed(*before, record);
-  });
-  part([&] { write_session_record(directory, record); });
-  part([&] { write_session_design(directory, plan.design.image); });
-  return record;
-}
-
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
   const RunWords words(plan.json == "-" ? stderr : stdout);
@@ -155,16 +136,16 @@ int run(const RunFlags& flags) {
   open_web(plan, host, web);
   for (const std::string& part : stray_parts(plan))
     tell(fmt::format("{}: left by a run that was killed; removed", part));
-  const ReportRecord record = begin_record(plan);
+  SessionRecorder recorder(plan);
   const std::string begun = fmt::format("Points from {}, session in {}, panel at {}{}\n", source_name(plan.source),
                                         plan.host.session_directory, panel_address(plan, host), web_address(plan, web));
   if (!plan.volume.quiet) std::fputs(begun.c_str(), words.file);
   clock.done("session begun");
   std::fflush(words.file);
-  watch(host, plan, stop);
+  watch(host, plan, stop, recorder);
   clock.done("points taken");
   notices.flush();
-  const int exit_code = conclude_run(plan, host, words, record);
+  const int exit_code = conclude_run(plan, host, words, recorder);
   clock.done("result written");
   if (exit_code != kBadInput) linger(plan, stop, host.panel_port(), words.file);
   return exit_code;

@@ -76,7 +76,7 @@ Conclusion conclusion_of(const Result& result) {
 
 }  // namespace
 
-int conclude_run(const RunPlan& plan, Host& host, const RunWords& words, const ReportRecord& record) {
+int conclude_run(const RunPlan& plan, Host& host, const RunWords& words, SessionRecorder& recorder) {
   SessionPoints points;
   const SessionResult session = host.finish(points);
   if (session.error) tell(session.error.message);
@@ -91,7 +91,8 @@ int conclude_run(const RunPlan& plan, Host& host, const RunWords& words, const R
                     plan.host.session_directory));
   }
   Result result = result_of(plan.image, plan.fit, points.rows, session.report, stream, plan.host.session_directory);
-  result.record = record;
+  recorder.turn();
+  result.record = recorder.record();
   result.record->ended = utc_now();
   host.conclude(conclusion_of(result));
   const WrittenFiles files = write_files(plan, result);

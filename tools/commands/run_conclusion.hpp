@@ -5,7 +5,7 @@
 
 #include "firmware_bridge/host/host.hpp"
 #include "tools/commands/run_plan.hpp"
-#include "tools/results/report_record.hpp"
+#include "tools/commands/session_recorder.hpp"
 
 namespace bladefit {
 
@@ -18,6 +18,6 @@ struct RunWords {
 
 /// Writes what the session came to, also after a fault: then of the points stored before it. Whatever cannot be written
 /// keeps nothing else from it. Returns the exit code.
-[[nodiscard]] int conclude_run(const RunPlan& plan, Host& host, const RunWords& words, const ReportRecord& record);
+[[nodiscard]] int conclude_run(const RunPlan& plan, Host& host, const RunWords& words, SessionRecorder& recorder);
 
 }  // namespace bladefit

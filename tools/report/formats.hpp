@@ -23,7 +23,7 @@ struct ReportFormat {
 inline constexpr std::array<ReportFormat, 5> kFormats{
     {{"html", "one page to look at, print and send: verdict, defects, pictures, tables by radius and chord, settings",
       html_report},
-     {"pdf", "the same as A4 pages, printed by Chromium or WeasyPrint, whichever is installed", pdf_report},
+     {"pdf", "the same as A4 pages, printed by Chromium, which must be installed", pdf_report},
      {"csv", "one line a point, units in the names of the columns", csv_report},
      {"json", "the result as `bladefit run` wrote it, checked", json_report},
      {"qif", "QIF 3.0 (ISO 23952): a feature and a characteristic for each point, with measured places and status",

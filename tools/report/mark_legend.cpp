@@ -10,7 +10,7 @@
 namespace bladefit {
 namespace {
 
-constexpr int kColours = 40;
+constexpr int kColours = 40, kMarkColumns = 3;
 constexpr double kBarLength = 270, kBarThickness = 11;
 
 std::string legend_text(double x, double y, std::string_view text, const char* anchor) {
@@ -59,7 +59,8 @@ std::string tolerance_legend(const Result& result, const ToleranceScale& scale, 
         Entry{PointState::in, 0.4, "in or not judged"}, Entry{PointState::undecided, 0, "undecided"},
         Entry{PointState::pending, 0, "not decided yet"}, Entry{PointState::rejected, 0, "does not count"}}) {
     if (!occurs(result, entry.state)) continue;
-    const double left = x + kBarLength + 34 + 130 * (place % 3), top = y + 16 + 20 * (place / 3);
+    const int column = place % kMarkColumns, row = place / kMarkColumns;
+    const double left = x + kBarLength + 34 + 130 * column, top = y + 16 + 20 * row;
     svg += point_mark(entry.state, entry.share, left, top, scale.colours()) +
            legend_text(left + 11, top + 4, entry.meaning, "start") + "\n";
     ++place;

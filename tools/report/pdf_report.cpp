@@ -29,9 +29,10 @@ class PrintFolder {
  public:
   PrintFolder() {
     std::string name = (fs::temp_directory_path() / "bladefit-print-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
+    if (mkdtemp(name.data()) == nullptr) {
       throw ToolError(fmt::format("{}: no folder can be made there; set TMPDIR to one that can be written", name),
                       ToolError::Kind::device);
+    }
     path_ = name;
   }
   ~PrintFolder() {
@@ -71,10 +72,8 @@ Printer printer_for(const fs::path& folder) {
   for (const char* const name : kChromiums) {
     if (const auto path = find_program(name)) return {*path, chromium_arguments(folder)};
   }
-  if (const auto path = find_program("weasyprint"))
-    return {*path, {(folder / "report.html").string(), (folder / "report.pdf").string()}};
   throw ToolError(
-      "--format pdf: neither Chromium nor WeasyPrint is installed; install one (apt-get install chromium), or write "
+      "--format pdf: Chromium is not installed; install it (apt-get install chromium), or write "
       "html and print that",
       ToolError::Kind::device);
 }

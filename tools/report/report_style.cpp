@@ -32,7 +32,8 @@ th:first-child, td:first-child { text-align: left; }
 .defects td:nth-child(5), .defects th:nth-child(5) { text-align: left; }
 .chords { font-size: 10px; table-layout: fixed; } .chords th, .chords td { padding: 2.5px 1px; text-align: center; }
 .chords td:first-child, .chords th:first-child { text-align: left; font-weight: 600; }
-.ring { border: 1.5px solid #b34700; border-radius: 9px; padding: 0 2px; font-weight: 700; }
+.ring { border: 1.2px solid #b34700; border-radius: 9px; padding: 0 1px; font-weight: 700; }
+.chords th:first-child { width: 6%; }
 .ring.minus { border-color: #084081; border-style: dashed; }
 .doubt { font-style: italic; } .empty { color: #9aa0a6; }
 .cut { color: #a04000; } .weld { color: #084081; } .note { color: #565c64; font-size: 12px; margin: 5px 0; }
@@ -43,7 +44,7 @@ svg { width: 100%; height: auto; display: block; }
 constexpr const char* kPrintStyle = R"(
 @media print { body { margin: 0; padding: 0; max-width: none; font-size: 9.6pt; print-color-adjust: exact;
   -webkit-print-color-adjust: exact; }
-  table { font-size: 8.3pt; } .points { font-size: 7.4pt; } .chords { font-size: 6.8pt; } .note, .session { font-size: 8pt; }
+  table { font-size: 8.3pt; } .points { font-size: 7.4pt; } .chords { font-size: 6.4pt; } .note, .session { font-size: 8pt; }
   .sum { font-size: 6.8pt; } svg, tr, .headline, .keep, table.identity, table.defects, table.regions { break-inside: avoid; } h2, h3 { break-after: avoid; }
   thead { display: table-header-group; } .page { break-before: page; } }
 )";

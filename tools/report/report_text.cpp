@@ -36,10 +36,7 @@ std::string clean_text(std::string_view text) {
   std::string clean;
   while (!text.empty()) {
     const std::size_t length = character_length(text);
-    if (length == 0)
-      clean += kReplacement;
-    else
-      clean += text.substr(0, length);
+    clean += length == 0 ? kReplacement : text.substr(0, length);
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return clean;

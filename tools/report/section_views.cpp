@@ -101,11 +101,12 @@ std::string curve_path(const SectionView& view) {
 struct ShownPoint {
   std::size_t index;
   UnrolledPlace on_curve, normal;
+  double share;  ///< of what is allowed, as an amount
 };
 
 /// Points of the section, in its frame: the foot of each goes to the same share of this section's chord.
 std::vector<ShownPoint> shown_points(const Result& result, std::size_t section, const SectionView& view,
-                                     const SectionFrame& frame, double chord) {
+                                     const SectionFrame& frame, double chord, const ToleranceScale& scale) {
   const BladeDrawing& drawing = *result.drawing;
   std::vector<ShownPoint> shown;
   for (std::size_t index = 0; index < drawing.points.size(); ++index) {
@@ -116,7 +117,8 @@ std::vector<ShownPoint> shown_points(const Result& result, std::size_t section, 
     const double ratio = chord / chord_of(own).norm();
     const UnrolledPlace foot(by_chord.along * chord, drawing.suction_beside * by_chord.beside * ratio);
     const OnCurve on = nearest_on(view, foot);
-    if (on.apart < 0.02 * chord) shown.push_back({index, on.place, frame.turned(place.normal)});
+    if (on.apart >= 0.02 * chord) continue;
+    shown.push_back({index, on.place, frame.turned(place.normal), std::abs(scale.share(result.points[index]))});
   }
   return shown;
 }
@@ -163,9 +165,8 @@ std::string section_view(const Result& result, std::size_t index, const Toleranc
   const double chord = chord_of(station).norm();
   const SectionView view = view_of(section, frame, chord);
   if (view.pieces.empty()) return "";
-  std::vector<ShownPoint> shown = shown_points(result, index, view, frame, chord);
-  std::ranges::sort(shown, {},
-                    [&](const ShownPoint& point) { return std::abs(scale.share(result.points[point.index])); });
+  std::vector<ShownPoint> shown = shown_points(result, index, view, frame, chord, scale);
+  std::ranges::sort(shown, {}, &ShownPoint::share);
   const std::size_t hidden = shown.size() - std::min(shown.size(), kMostPointsShown);
   const double tolerance = judged_tolerance(result, Region::leading_edge);
   const bool judged = std::isfinite(tolerance) && tolerance > 0;
@@ -173,9 +174,10 @@ std::string section_view(const Result& result, std::size_t index, const Toleranc
   const double factor = round_factor(kBand, unit, view.scale);
   const std::string curve = curve_path(view);
   std::string svg;
-  if (judged)
+  if (judged) {
     svg +=
         fmt::format("<path class=\"band\" stroke-width=\"{:.2f}\" d=\"{}\"/>\n", 2 * unit * factor * view.scale, curve);
+  }
   svg += fmt::format("<path class=\"curve\" d=\"{}\"/>\n", curve);
   for (std::size_t k = hidden; k < shown.size(); ++k) svg += whisker(result, view, shown[k], factor, scale);
   svg += fmt::format(

@@ -16,12 +16,13 @@ constexpr std::size_t kRangesNamed = 12;
 
 std::string certificate_points(const Certificate& certificate) {
   std::string text;
-  for (std::uint32_t k = 0; k < certificate.count; ++k)
+  for (std::uint32_t k = 0; k < certificate.count; ++k) {
     text += fmt::format("{}{} ({})",
                         k == 0                       ? ""
                         : k + 1 == certificate.count ? " and "
                                                      : ", ",
                         certificate.sequence.at(k), certificate.sign.at(k) > 0 ? "+" : "-");
+  }
   return text;
 }
 
@@ -86,11 +87,12 @@ std::vector<std::string> decision_sentences(const Result& result) {
     any = true;
   }
   const LengthText text(result);
-  if (any)
+  if (any) {
     sentences.push_back(fmt::format(
         "Expanded uncertainty of a distance: {} to {}. It holds what comes from the fit, and from the probe only where "
         "a probe uncertainty or the machine's MPE was given.",
         text.plain(least), text.with_unit(most)));
+  }
   return sentences;
 }
 
@@ -112,9 +114,10 @@ std::vector<std::string> omission_sentences(const Result& result) {
   tell(PointState::rejected, "not judged, the foot is outside the window or on an outer edge of the design.");
   tell(PointState::pending, "not decided, the points do not determine the fit well enough there.");
   tell(PointState::undecided, "undecided, too near to the tolerance for the uncertainty.");
-  if (result.drawing && result.drawing->out_not_joined > 0)
+  if (result.drawing && result.drawing->out_not_joined > 0) {
     sentences.push_back(fmt::format("{} out of tolerance beyond the worst are in the csv report, not in the defects.",
                                     counted(result.drawing->out_not_joined, "point")));
+  }
   if (sentences.empty()) sentences.emplace_back("Nothing is known to be lost, and every point was judged.");
   if (result.drawing && !result.drawing->edge_known)
     sentences.emplace_back("No leading edge is set: sides, chords and sections are not shown.");
@@ -132,10 +135,11 @@ std::string settings_table(const Result& result) {
   std::string html = "<table class=\"identity\"><tbody>\n";
   for (std::size_t k = 0; k < told.size(); k += 2) {
     html += "<tr>";
-    for (const std::size_t i : {k, k + 1})
+    for (const std::size_t i : {k, k + 1}) {
       html += i < told.size()
                   ? fmt::format("<td>{}</td><td>{}</td>", escaped(told[i].first), escaped(value_text(told[i].second)))
                   : "<td></td><td></td>";
+    }
     html += "</tr>\n";
   }
   return html +

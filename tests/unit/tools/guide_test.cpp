@@ -18,7 +18,7 @@ const fs::path kRoot = fs::path(BLADEFIT_TEST_DATA).parent_path().parent_path();
 
 /// The commands of the blocks marked `sh`, and `sh printer` where there is one, in their order.
 std::string commands_of(const fs::path& document) {
-  const bool printer = find_program("chromium").has_value() || find_program("weasyprint").has_value();
+  const bool printer = find_program("chromium").has_value();
   std::ifstream file(document);
   std::string commands;
   bool inside = false;
