@@ -30,14 +30,20 @@ clashing() {
 tidy() { clang-tidy --quiet --config-file=.clang-tidy "$(unit_of "$@")" -- "${flags[@]}" -fdelayed-template-parsing 2>/dev/null; }
 
 lint() {
-  local apart together report bad=0
-  report=$(tidy "$@") && { [[ -z $report ]] || echo "$report"; return; }
-  if [[ $report != *clang-diagnostic-error* ]]; then
+  local apart together report code=0 bad=0
+  report=$(tidy "$@") || code=$?
+  if [[ $code -eq 0 ]]; then
+    [[ -z $report ]] || echo "$report"
+    return
+  fi
+  # Names that clash are errors, and clang-tidy does not survive some of them.
+  if [[ $code -lt 128 && $report != *clang-diagnostic-error* ]]; then
     echo "$report"
     return 1
   fi
   mapfile -t apart < <(clashing "$@")
   if [[ ${#apart[@]} -eq 0 || ${#apart[@]} -eq $# ]]; then
+    echo "lint: clang-tidy ends with $code over $*"
     echo "$report"
     return 1
   fi
