@@ -9,7 +9,7 @@ packages=(g++ cmake ninja-build pkg-config libeigen3-dev libmodbus-dev libserial
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libcpp-httplib-dev libssl-dev zlib1g-dev nodejs python3)
 if [[ "${1:-}" == "--tests" ]]; then
   packages+=(libgtest-dev librapidcheck-dev libnlopt-dev mbpoll valgrind clang-format clang-tidy universal-ctags binutils git
-    tmux dpkg-dev)
+    tmux dpkg-dev file)
 elif [[ "${1:-}" == "--bench" ]]; then
   packages+=(libgtest-dev librapidcheck-dev valgrind libsisl-dev libceres-dev libnlopt-dev libnlopt-cxx-dev
     coinor-libipopt-dev libnanoflann-dev)
