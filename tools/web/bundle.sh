@@ -15,18 +15,16 @@ rm -rf "$folder/src" "$folder/dist"
 cp -r "$here"/page/. "$folder"
 cd "$folder"
 
-build() {
-  if ! cmp -s package-lock.json node_modules/.bladefit-lock; then
-    npm ci --omit=dev --ignore-scripts --no-audit --no-fund --loglevel=error \
-      --fetch-retries=1 --fetch-retry-mintimeout=1000
+# Where a command is asked about as a whole the shell goes on after what fails in it: each step asks by itself.
+packages() {
+  cmp -s package-lock.json node_modules/.bladefit-lock && return
+  npm ci --omit=dev --ignore-scripts --no-audit --no-fund --loglevel=error --fetch-retries=1 --fetch-retry-mintimeout=1000 &&
     cp package-lock.json node_modules/.bladefit-lock
-  fi
-  "$node" node_modules/vite/bin/vite.js build --logLevel warn
-  "$node" pack.mjs dist "$out"
 }
+build() { packages && "$node" node_modules/vite/bin/vite.js build --logLevel warn && "$node" pack.mjs dist "$out"; }
 
 log=$folder/bundle.log
-if (build) >"$log" 2>&1; then exit 0; fi
+if build >"$log" 2>&1; then exit 0; fi
 if [[ -e node_modules/.bladefit-lock ]]; then
   # Everything was there: the sources are wrong.
   cat "$log" >&2

@@ -19,10 +19,14 @@ import { createHash } from "node:crypto";
 import { writeFileSync } from "node:fs";
 const [version, sha512, file] = process.argv.slice(2);
 const registry = (process.env.npm_config_registry ?? "https://registry.npmjs.org").replace(/\/$/, "");
-const answer = await fetch(`${registry}/npm/-/npm-${version}.tgz`);
-if (!answer.ok) throw new Error(`npm ${version}: the registry answered ${answer.status}`);
+const refuse = (why) => {
+  console.error(`npm ${version} cannot be fetched from ${registry}: ${why}`);
+  process.exit(1);
+};
+const answer = await fetch(`${registry}/npm/-/npm-${version}.tgz`).catch((error) => refuse(error.cause?.message ?? error.message));
+if (!answer.ok) refuse(`it answered ${answer.status}`);
 const bytes = Buffer.from(await answer.arrayBuffer());
-if (createHash("sha512").update(bytes).digest("base64") !== sha512) throw new Error(`npm ${version}: not the file that is expected`);
+if (createHash("sha512").update(bytes).digest("base64") !== sha512) refuse("it is not the file that is expected");
 writeFileSync(file, bytes);
 SCRIPT
   mkdir -p "$(dirname "$folder")"
