@@ -111,18 +111,18 @@ std::optional<WebSettings> plan_web(const PanelSettings& file, const std::string
   const std::string address = flag.empty() ? file.http.value_or("") : flag;
   if (address.empty()) return std::nullopt;
   const char* const name = flag.empty() ? "panel.http" : "--http";
-  if (!WebPanel::has_page()) {
-    throw ToolError(fmt::format(
-        "{} {}: this program was built without the web panel; install Node.js (tools/install.sh) and build it "
-        "again where npm's registry is reached, or leave this out",
-        name, address));
-  }
   WebSettings web;
   if (!parse_address(address, web.host, web.port)) {
     throw ToolError(fmt::format("{} {}: is no address; use HOST:PORT, for example 127.0.0.1:8080", name, address));
   }
   if (file.allow) web.allow = *file.allow;
   if (file.http_token_file) web.token = read_token(*file.http_token_file);
+  if (!WebPanel::has_page()) {
+    throw ToolError(fmt::format(
+        "{} {}: this program was built without the web panel; install Node.js (tools/install.sh) and build it "
+        "again where npm's registry is reached, or leave this out",
+        name, address));
+  }
   return web;
 }
 

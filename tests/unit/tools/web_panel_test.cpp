@@ -40,10 +40,7 @@ Verdict shown_point(std::uint32_t sequence, double distance) {
 /// A panel of a session that is made up.
 class WebPanelTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!WebPanel::has_page()) GTEST_SKIP() << "built without the page";
-    open(kTestToken);
-  }
+  void SetUp() override { open(kTestToken); }
 
   void open(const std::string& token, const std::vector<std::string>& allow = {}) {
     panel = std::make_unique<WebPanel>();
@@ -82,12 +79,13 @@ class WebPanelTest : public ::testing::Test {
 
 TEST_F(WebPanelTest, ServesThePageUnderAPolicyThatAllowsItsOwnFilesOnly) {
   const HttpAnswer page = http_ask(port(), "GET", "/");
-  EXPECT_EQ(page.status, 200);
-  EXPECT_NE(page.head.find("Content-Encoding: gzip"), std::string::npos);
+  const int files = WebPanel::has_page() ? 200 : 404;  // without Node.js at the build there are none
+  EXPECT_EQ(page.status, files);
+  EXPECT_EQ(page.head.find("Content-Encoding: gzip") != std::string::npos, WebPanel::has_page());
   EXPECT_NE(page.head.find("default-src 'none'; script-src 'self'; style-src 'self'"), std::string::npos);
   EXPECT_EQ(page.head.find("unsafe"), std::string::npos);
-  EXPECT_EQ(http_ask(port(), "GET", "/page.js").status, 200);
-  EXPECT_EQ(http_ask(port(), "GET", "/page.css").status, 200);
+  EXPECT_EQ(http_ask(port(), "GET", "/page.js").status, files);
+  EXPECT_EQ(http_ask(port(), "GET", "/page.css").status, files);
   EXPECT_EQ(http_ask(port(), "GET", "/../etc/passwd").status, 404);
   EXPECT_EQ(http_ask(port(), "GET", "/api/design").body, R"({"name":"made up"})");
 }
