@@ -39,6 +39,16 @@ std::vector<double> progress(const Surface& surface, std::uint32_t patch, bool a
   return share;
 }
 
+/// Those of `lines` between two limits, and the limits.
+std::vector<double> lines_between(const std::vector<double>& lines, double low, double high) {
+  std::vector<double> inside = {low};
+  for (const double line : lines) {
+    if (line > low && line < high) inside.push_back(line);
+  }
+  inside.push_back(high);
+  return inside;
+}
+
 }  // namespace
 
 std::vector<double> mesh_parameters(const Surface& surface, std::uint32_t patch, bool along_u, std::size_t count) {
@@ -85,6 +95,11 @@ std::vector<FaceMesh> mesh_faces(const Surface& surface) {
                                mesh_parameters(surface, patch, false, lines)));
   }
   return meshes;
+}
+
+FaceMesh mesh_inside(const Surface& surface, const FaceMesh& face, const ParameterBox& box) {
+  return mesh_over(surface, box.patch, lines_between(face.us, box.u_min, box.u_max),
+                   lines_between(face.vs, box.v_min, box.v_max));
 }
 
 }  // namespace bladefit

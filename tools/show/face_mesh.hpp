@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/geometry/surface/surface.hpp"
+#include "core/inspection/tolerance_map.hpp"
 
 namespace bladefit {
 
@@ -21,6 +22,9 @@ struct FaceMesh {
 /// The grid over these parameters. Cost: one evaluation a point.
 [[nodiscard]] FaceMesh mesh_over(const Surface& surface, std::uint32_t patch, std::vector<double> us,
                                  std::vector<double> vs);
+
+/// The part of a face's grid in a box of its parameters, whose limits are lines of it: both lie on each other.
+[[nodiscard]] FaceMesh mesh_inside(const Surface& surface, const FaceMesh& face, const ParameterBox& box);
 
 /// Every patch, so dense that all have no more than some 60,000 points together.
 [[nodiscard]] std::vector<FaceMesh> mesh_faces(const Surface& surface);

@@ -17,21 +17,6 @@ double step_for(std::size_t patches) {
   return patches <= 12 ? 0.25 : 1.0;
 }
 
-/// Those of `lines` between two limits, and the limits.
-std::vector<double> between(const std::vector<double>& lines, double low, double high) {
-  std::vector<double> inside = {low};
-  for (const double line : lines) {
-    if (line > low && line < high) inside.push_back(line);
-  }
-  inside.push_back(high);
-  return inside;
-}
-
-/// The mesh of a box: the lines of its face inside of it, so that both lie on each other.
-FaceMesh zone_mesh(const Surface& surface, const FaceMesh& face, const ParameterBox& box) {
-  return mesh_over(surface, box.patch, between(face.us, box.u_min, box.u_max), between(face.vs, box.v_min, box.v_max));
-}
-
 std::string ridge_note(const RidgedBlade& blade, std::size_t ridge, double mm_per_unit, const std::string& units) {
   const SectionRidge& middle = blade.middle_of(ridge);
   const Vec3 place = middle.place.point / mm_per_unit;
@@ -62,7 +47,7 @@ void fill_page(const Surface& surface, const ToleranceMap& tolerance, PageConten
   }
   for (std::uint32_t k = 0; k < tolerance.box_count; ++k) {
     const ParameterBox& box = tolerance.boxes.at(k);
-    content.zones.push_back(zone_mesh(surface, content.faces.at(box.patch), box));
+    content.zones.push_back(mesh_inside(surface, content.faces.at(box.patch), box));
   }
 }
 

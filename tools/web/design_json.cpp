@@ -51,16 +51,6 @@ std::string grid_json(const Surface& surface, const FaceMesh& mesh) {
                      mesh.vs.size(), base64_of(places), base64_of(normals), base64_of(inside_of(surface, mesh)));
 }
 
-/// Those of `lines` between two limits, and the limits.
-std::vector<double> lines_between(const std::vector<double>& lines, double low, double high) {
-  std::vector<double> inside = {low};
-  for (const double line : lines) {
-    if (line > low && line < high) inside.push_back(line);
-  }
-  inside.push_back(high);
-  return inside;
-}
-
 }  // namespace
 
 std::string design_json(const Surface& surface, const ToleranceMap& tolerance, const ShaftAxis& axis,
@@ -71,8 +61,7 @@ std::string design_json(const Surface& surface, const ToleranceMap& tolerance, c
   for (std::uint32_t k = 0; k < tolerance.box_count; ++k) {
     const ParameterBox& box = tolerance.boxes.at(k);
     const FaceMesh& face = faces.at(box.patch);
-    zones.push_back(mesh_over(surface, box.patch, lines_between(face.us, box.u_min, box.u_max),
-                              lines_between(face.vs, box.v_min, box.v_max)));
+    zones.push_back(mesh_inside(surface, face, box));
   }
   return fmt::format(
       R"({{"name":{},"middle":{},"half_diagonal":{},"axis":{{"point":{},"direction":{}}},"tip":{},"faces":{},"zones":{}}})",
