@@ -73,7 +73,7 @@ RidgeChoice leading_edge_of(std::vector<RidgeChoice> choices, const FitSettings&
   }
   if (settings.leading_edge_near) return nearest_to(choices, *settings.leading_edge_near * plan.mm_per_unit);
   if (choices.size() > 1) {
-    refuse(choices, plan, settings.rotation ? kFix : std::string(kFix) + ", or --rotation right or left about --axis");
+    refuse(choices, plan, settings.rotation ? kFix : fmt::format("{}, or --rotation right or left about --axis", kFix));
   }
   return choices.front();
 }
