@@ -132,6 +132,13 @@ const std::vector<BadInput>& bad_settings() {
        localize("DIR/p.csv", {"--start", "DIR/a.csv"}),
        2,
        "a.csv:2: column design_x: '1e300' is beyond"},
+      {"start pairs with endless names",
+       {{"p.csv", kSheetPoints},
+        {"a.csv", "name,x,y,z,design_x,design_y,design_z\n" + std::string(4000, 'n') +
+                      ",0,0,0,0,0,0\nhub,9,0,0,1,0,0\ntip,0,1,0,0,1,0\n"}},
+       localize("DIR/p.csv", {"--start", "DIR/a.csv"}),
+       2,
+       "what remains: line 2 .*, hub .*, tip "},
       {"a subset that names no row",
        {{"p.csv", kSheetPoints}, {"s.txt", "99999999999999999999999\n"}},
        localize("DIR/p.csv", {"--subset", "DIR/s.txt"}),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "config/toml_error.hpp"
 #include "core/algebra/symmetric_eigen.hpp"
 #include "drivers/text/csv_table.hpp"
 #include "tools/files/read_text.hpp"
@@ -27,7 +28,9 @@ constexpr double kLargestCoordinate = 1e9;
 /// some hundredths of a blade.
 constexpr double kWorstRest = 0.05;
 /// Pairs that a message lists.
-constexpr std::size_t kListed = 6;
+constexpr std::size_t kListed = 3;
+/// A pair whose name is longer [bytes] is told by its line.
+constexpr std::size_t kLongestName = 20;
 /// Points whose second extent is below this share of the first stand in one line.
 constexpr double kInLine = 1e-3;
 
@@ -41,7 +44,8 @@ using Points = std::vector<Vec3>;
 Pair parse_pair(const CsvRow& row) {
   Pair pair;
   pair.name = fmt::format("line {}", row.place.line);
-  if (!row.values[kNameColumn].empty()) pair.name = std::string(row.values[kNameColumn]);
+  const std::string_view name = row.values[kNameColumn];
+  if (!name.empty() && name.size() <= kLongestName) pair.name = excerpt(name);
   for (std::size_t k = 0; k < kNameColumn; ++k) {
     if (const Failure failure = finite_cell(row, k, kFormat, pair.numbers[k])) throw ToolError(failure);
     if (std::abs(pair.numbers[k]) <= kLargestCoordinate) continue;
