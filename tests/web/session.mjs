@@ -79,14 +79,15 @@ export async function machine(points, rate) {
   return { port: Number((await match)[1]), stop: () => end(child, "SIGTERM") };
 }
 
-// A session with a web panel: { address, stop }. `port` 0: any.
+// A session with a web panel and a Modbus panel: { address, panelPort, stop }. `port` 0: any.
 export async function session(name, source, { port = 0, linger = 600, words = ["--until-idle", "60"] } = {}) {
   const token = join(folder, "token.txt"), config = join(folder, `${name}.toml`);
   writeFileSync(token, `${kToken}\n`);
   writeFileSync(config, `[panel]\nport = 0\nhttp = "127.0.0.1:${port}"\nhttp_token_file = "token.txt"\nlinger = ${linger}\n`);
   const { child, match } = started(["run", "--config", config, "--design", design(), "--source", source, "--leading-edge", "u:0.4:0.6", "--tolerance", "0.15",
-    "--rest-tolerance", "0.5", "--session", name, "--headless", ...words], /web panel at (http:\S+)/);
-  return { address: (await match)[1], stop: (signal = "SIGTERM") => end(child, signal) };
+    "--rest-tolerance", "0.5", "--session", name, "--headless", ...words], /panel at 127\.0\.0\.1:(\d+)[^]*web panel at (http:\S+)/);
+  const [, panelPort, address] = await match;
+  return { address, panelPort: Number(panelPort), stop: (signal = "SIGTERM") => end(child, signal) };
 }
 
 export const kSource = (port) => `modbus-tcp://127.0.0.1:${port}`;
