@@ -100,7 +100,8 @@ class TrimSearch {
     const SurfacePoint other = before.span == line_.span ? here.at : surface_.evaluate({before.span, line_.u, line_.v});
     if (!rises(other, here.offset, -before.du, -before.dv)) return;
     // Half way between the two, which a straight loop needs.
-    const double size_before = std::hypot(before.du, before.dv), size = std::hypot(line_.du, line_.dv);
+    const double size_before = std::sqrt(before.du * before.du + before.dv * before.dv);
+    const double size = std::sqrt(line_.du * line_.du + line_.dv * line_.dv);
     if (!(size_before > 0.0 && size > 0.0)) return;
     const double du = before.du / size_before + line_.du / size, dv = before.dv / size_before + line_.dv / size;
     if (rises(here.at, here.offset, -dv, du)) show(0.0, here, trim_->corner != 0);

@@ -25,8 +25,8 @@ BLADEFIT_INLINE Four3 broadcast(const double* a) { return {Four{} + a[0], Four{}
 BLADEFIT_INLINE void surface_bend(const LaneWalk& walk, const Four3& n, const Four& phi, const Lever& lever,
                                   Four (&bend)[21]) {
   const Four3 s_u = load3(walk.s_u), s_v = load3(walk.s_v);
-  const Four g_uu = dot(s_u, s_u), g_uv = dot(s_u, s_v), g_vv = dot(s_v, s_v);
-  const Four b_uu = dot(n, load3(walk.s_uu)), b_uv = dot(n, load3(walk.s_uv)), b_vv = dot(n, load3(walk.s_vv));
+  const Four g_uu = eigen_dot(s_u, s_u), g_uv = eigen_dot(s_u, s_v), g_vv = eigen_dot(s_v, s_v);
+  const Four b_uu = eigen_dot(n, load3(walk.s_uu)), b_uv = eigen_dot(n, load3(walk.s_uv)), b_vv = eigen_dot(n, load3(walk.s_vv));
   const Four m_uu = g_uu - phi * b_uu, m_uv = g_uv - phi * b_uv, m_vv = g_vv - phi * b_vv;
   const Four det = (g_uu * g_vv - g_uv * g_uv) * (m_uu * m_vv - m_uv * m_uv);
   const Four size = det < 0.0 ? -det : det;
@@ -51,7 +51,7 @@ BLADEFIT_INLINE void surface_bend(const LaneWalk& walk, const Four3& n, const Fo
 /// add_rotation_bend() of quadratic_model.cpp.
 BLADEFIT_INLINE void rotation_bend(const Four3& n, const Four3& arm, double length, Four (&bend)[21]) {
   const double f = 1.0 / (length * length), half = 0.5 * f;
-  const Four along = f * dot(n, arm);
+  const Four along = f * eigen_dot(n, arm);
   const Four normal[3] = {n.x, n.y, n.z}, lever[3] = {arm.x, arm.y, arm.z};
   int entry = 0;
   for (int j = 0; j < 3; ++j) {
@@ -64,13 +64,13 @@ BLADEFIT_INLINE void rotation_bend(const Four3& n, const Four3& arm, double leng
 
 void take_rows(const LaneWalk& walk, const LaneFrame& frame, LaneRows& rows) {
   const Four3 s_u = load3(walk.s_u), s_v = load3(walk.s_v), offset = load3(walk.offset), normal = cross(s_u, s_v);
-  const Four sizes = dot(s_u, s_u) + dot(s_v, s_v);
-  const Mask regular = dot(normal, normal) > 1e-24 * sizes * sizes;
+  const Four sizes = eigen_dot(s_u, s_u) + eigen_dot(s_v, s_v);
+  const Mask regular = eigen_dot(normal, normal) > 1e-24 * sizes * sizes;
   for (int k = 0; k < kLanes; ++k) rows.regular[k] = regular[k] != 0;
   const Four3 outward = load(frame.outward) * normal;
-  const Four length = root(dot(outward, outward));
+  const Four length = root(eigen_dot(outward, outward));
   const Four3 n{outward.x / length, outward.y / length, outward.z / length};
-  const Four phi = dot(n, offset);
+  const Four phi = eigen_dot(n, offset);
   const Lever lever{load3(walk.r) - broadcast(frame.pivot) - broadcast(frame.x + 3),
                     (Four{} + 0.5 / frame.length) * broadcast(frame.x), 1.0 / frame.length};
   Four gradient[6], bend[21];

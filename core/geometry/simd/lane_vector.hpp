@@ -32,7 +32,10 @@ BLADEFIT_INLINE void store3(LaneNumbers (&a)[3], const Four3& v) {
 BLADEFIT_INLINE Four3 operator+(const Four3& a, const Four3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 BLADEFIT_INLINE Four3 operator-(const Four3& a, const Four3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 BLADEFIT_INLINE Four3 operator*(const Four& f, const Four3& a) { return {f * a.x, f * a.y, f * a.z}; }
+/// As homogeneous_dot() of span_newton.cpp adds up.
 BLADEFIT_INLINE Four dot(const Four3& a, const Four3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// As Eigen adds up three products.
+BLADEFIT_INLINE Four eigen_dot(const Four3& a, const Four3& b) { return a.x * b.x + (a.y * b.y + a.z * b.z); }
 BLADEFIT_INLINE Four3 cross(const Four3& a, const Four3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

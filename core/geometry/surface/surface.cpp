@@ -10,8 +10,7 @@ Vec3 middle_of(const ImageHeader& header) { return 0.5 * (Vec3(header.box_min) +
 
 Surface::Surface(const DesignImage& image) : image_(image), middle_(middle_of(image.header())) {
   const ImageHeader& h = image.header();
-  half_diagonal_ =
-      0.5 * std::hypot(h.box_max[0] - h.box_min[0], h.box_max[1] - h.box_min[1], h.box_max[2] - h.box_min[2]);
+  half_diagonal_ = 0.5 * (Vec3(h.box_max) - Vec3(h.box_min)).norm();
 }
 
 SurfacePoint projected(const HomogeneousDerivatives& h) {
