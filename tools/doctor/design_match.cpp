@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/nearest/global_projection.hpp"
 #include "core/geometry/surface/design_image.hpp"
@@ -14,6 +15,7 @@ namespace bladefit {
 namespace {
 
 constexpr std::size_t kLooks = 25;
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
 /// [half diagonals] Points whose median distance from the surface is no larger lie on it.
 constexpr double kOnSurface = 0.02;
 /// A larger factor wins where the distances, each against the size of the points, are this share: small factors bring
@@ -75,7 +77,7 @@ DesignMatch match_design(const PlacedDesign& design, const std::vector<ProbePoin
 }
 
 std::string box_text(const std::vector<ProbePoint>& points) {
-  Vec3 low = Vec3::Constant(INFINITY), high = Vec3::Constant(-INFINITY);
+  Vec3 low = Vec3::Constant(kNowhere), high = -low;
   for (const ProbePoint& point : points) {
     low = low.cwiseMin(Vec3(point.position.data()));
     high = high.cwiseMax(Vec3(point.position.data()));
@@ -86,7 +88,7 @@ std::string box_text(const std::vector<ProbePoint>& points) {
 std::string box_text(const PlacedDesign& design) {
   const ImageHeader& header = design.surface.image().header();
   const Pose& start = design.start;
-  Vec3 low = Vec3::Constant(INFINITY), high = Vec3::Constant(-INFINITY);
+  Vec3 low = Vec3::Constant(kNowhere), high = -low;
   for (unsigned corner = 0; corner < 8; ++corner) {
     Vec3 at;
     for (unsigned axis = 0; axis < 3; ++axis)

@@ -21,9 +21,10 @@ struct ScaleSetting {
 
   std::string operator()(const ModbusSettings& modbus) const {
     std::string text = "[map.record]";
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      text += fmt::format("{} {}: scale = {:.10g}", axis == 0 ? "" : ",", "xyz"[axis],
-                          modbus.map.position[axis].scale * factor);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double scale = modbus.map.position[axis].scale * factor;
+      text += fmt::format("{} {}: scale = {:.10g}", axis == 0 ? "" : ",", "xyz"[axis], scale);
+    }
     return text;
   }
 
