@@ -8,7 +8,6 @@
 
 #include "config/device_settings.hpp"
 #include "config/table_reader.hpp"
-#include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/session_source.hpp"
@@ -113,7 +112,8 @@ void add_doctor_command(CLI::App& app, int& exit_code) {
       "  bladefit doctor --config session.toml\n"
       "  bladefit doctor --config machine.toml --design blade.bfd --timeout 30");
   command->add_option("--config", flags->config, "session TOML, as for run, or a device TOML (see config/devices)");
-  command->add_option("--source", flags->source, source_uri_forms() + "; wins over the files");
+  command->add_option("--source", flags->source,
+                      "where the machine is: a source as for run, but no recording; wins over the files");
   command->add_option(
       "--design", flags->design,
       "design that the points are held against: .igs .iges .stp .step, or .bfd; wins over the session's");
