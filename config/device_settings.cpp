@@ -39,8 +39,7 @@ void read_line(TableReader table, SerialLineSettings& line) {
   table.read_path("device", line.device);
   table.read_whole("baud", line.baud, {1200, 4000000});
   table.read_whole("data_bits", line.data_bits, {7, 8});
-  table.read_choice<Parity>("parity", line.parity,
-                            {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}});
+  table.read_choice<Parity>("parity", line.parity, kParities);
   table.read_whole("stop_bits", line.stop_bits, {1, 2});
   table.read("low_latency", line.low_latency);
   table.finish();

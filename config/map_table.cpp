@@ -105,10 +105,9 @@ void read_map_table(TableReader& table, CmmMap& map) {
   constexpr std::string_view kPlace = "address";
   table.read_choice<WordOrder>("word_order", map.word_order, kWordOrders);
   table.read_choice<ByteOrder>("byte_order", map.byte_order, kByteOrders);
-  std::uint16_t base = 0;
-  table.read_whole("address_base", base, {0, 1});
-  table.read_choice<RegisterTable>("table", map.table,
-                                   {{"input", RegisterTable::input}, {"holding", RegisterTable::holding}});
+  table.read_whole("address_base", map.address_base, {0, 1});
+  const std::uint16_t base = map.address_base;
+  table.read_choice<RegisterTable>("table", map.table, kRegisterTables);
   read_field(table, "version", kPlace, map.version, base);
   table.read_whole("expected_version", map.expected_version, kDoubleWord);
   read_field(table, "status", kPlace, map.status, base);

@@ -114,14 +114,27 @@ void stage_made(LocalizerParts& p, const StoredPoint& made, Search search) {
 
 }  // namespace
 
-std::size_t Localizer::memory_required(const LocalizerConfig& config) {
+std::array<MemoryPart, 9> Localizer::memory_parts(const LocalizerConfig& config) {
   const bool bounded = config.mode != FitMode::least_squares;
-  const std::uint64_t rows = bounded ? BoundRows::doubles_for(config.capacity) : 0;
-  const std::uint64_t places = bounded ? KeptSheets::kPlacesPerPoint : 0;
   const std::uint64_t points = config.capacity;
-  const std::uint64_t size = rounded_up(sizeof(Localizer)) + rounded_up(sizeof(LocalizerParts)) +
-                             rounded_up(sizeof(StoredPoint) * points) + 2 * rounded_up(sizeof(std::uint32_t) * points) +
-                             rounded_up(sizeof(double) * rows) + rounded_up(sizeof(SurfacePlace) * places * points);
+  const std::uint64_t rows = bounded ? BoundRows::doubles_for(points) : 0;
+  const std::uint64_t places = bounded ? KeptSheets::kPlacesPerPoint * points : 0;
+  constexpr std::uint64_t kSelf = rounded_up(sizeof(Localizer)) + rounded_up(sizeof(LocalizerParts));
+  constexpr std::uint64_t kNamed = sizeof(RunningSums) + sizeof(StreamOptimum) + sizeof(Refinement);
+  return {{{"configuration, pose and verdicts", kSelf - kNamed},
+           {"sums", sizeof(RunningSums)},
+           {"programs of the stream", sizeof(StreamOptimum)},
+           {"refinement", sizeof(Refinement)},
+           {"points", rounded_up(sizeof(StoredPoint) * points)},
+           {"points by sequence", rounded_up(sizeof(std::uint32_t) * points)},
+           {"revisions that wait", rounded_up(sizeof(std::uint32_t) * points)},
+           {"rows of the programs", rounded_up(sizeof(double) * rows)},
+           {"other sheets of the points", rounded_up(sizeof(SurfacePlace) * places)}}};
+}
+
+std::size_t Localizer::memory_required(const LocalizerConfig& config) {
+  std::uint64_t size = 0;
+  for (const MemoryPart& part : memory_parts(config)) size += part.size;
   return static_cast<std::size_t>(std::min<std::uint64_t>(size, kMoreThanThereIs));
 }
 

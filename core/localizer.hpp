@@ -123,12 +123,21 @@ struct FitReport {
 
 struct LocalizerParts;
 
+/// A part of the memory of a localizer.
+struct MemoryPart {
+  std::string_view name;
+  std::uint64_t size = 0;  ///< bytes, with what fills them up to the alignment
+};
+
 /// Incremental least squares of a stream of points against a design surface, in the caller's memory.
 /// One thread owns it. No call allocates, locks, throws or loops without a bound.
 class Localizer {
  public:
   /// Bytes that create() needs for this configuration; alignment 64.
   [[nodiscard]] static std::size_t memory_required(const LocalizerConfig& config);
+
+  /// What they are made of, in the order of their addresses. On a processor with addresses of 32 bits some are smaller.
+  [[nodiscard]] static std::array<MemoryPart, 9> memory_parts(const LocalizerConfig& config);
 
   /// Builds a localizer inside `memory`, which the caller owns and releases after the last use (no destructor is
   /// needed). The memory under `design` must outlive it. Returns ok, null_argument, misaligned (64 bytes),

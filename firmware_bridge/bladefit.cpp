@@ -62,6 +62,20 @@ bladefit_status prepare(const bladefit_config* config, LocalizerConfig& translat
   return status != BLADEFIT_OK ? status : bladefit::translate_config(*config, translated);
 }
 
+/// What one push does behind the check of the handle.
+bladefit_status push_one(Localizer& localizer, const bladefit_point* point, bladefit_verdict* verdict) {
+  if (const bladefit_status status = check_struct(point); status != BLADEFIT_OK) return status;
+  if (const bladefit_status status = check_struct(verdict); status != BLADEFIT_OK) return status;
+  bladefit::ProbePoint translated;
+  if (const bladefit_status status = bladefit::translate_point(*point, translated); status != BLADEFIT_OK) {
+    return status;
+  }
+  Verdict result;
+  const Status status = localizer.push(translated, result);
+  if (succeeded(status) && status != Status::duplicate) *verdict = bladefit::translate_verdict(result);
+  return to_abi(status);
+}
+
 }  // namespace
 
 uint32_t bladefit_abi_version(void) { return BLADEFIT_ABI_VERSION; }
@@ -70,6 +84,8 @@ const char* bladefit_status_text(bladefit_status status) {
   switch (status) {
     case BLADEFIT_BAD_SIZE:
       return "struct_size is not that of this version of the struct";
+    case BLADEFIT_POINTS_REFUSED:
+      return "some points of the batch were not taken";
     case BLADEFIT_BAD_HANDLE:
       return "the handle does not come from a successful bladefit_init";
     default:
@@ -115,16 +131,24 @@ bladefit_status bladefit_init(void* memory, size_t memory_size, const void* desi
 }
 
 bladefit_status bladefit_push(bladefit_handle* handle, const bladefit_point* point, bladefit_verdict* verdict) {
-  if (const bladefit_status status = check_call(handle, point); status != BLADEFIT_OK) return status;
-  if (const bladefit_status status = check_struct(verdict); status != BLADEFIT_OK) return status;
-  bladefit::ProbePoint translated;
-  if (const bladefit_status status = bladefit::translate_point(*point, translated); status != BLADEFIT_OK) {
-    return status;
+  const bladefit_status status = check_handle(handle);
+  return status != BLADEFIT_OK ? status : push_one(*handle->localizer, point, verdict);
+}
+
+bladefit_status bladefit_push_many(bladefit_handle* handle, const bladefit_point* points, size_t count,
+                                   bladefit_verdict* verdicts, bladefit_status* statuses) {
+  if (const bladefit_status status = check_handle(handle); status != BLADEFIT_OK) return status;
+  for (const bladefit_status status :
+       {check_pointer(points, alignof(bladefit_point)), check_pointer(verdicts, alignof(bladefit_verdict)),
+        check_pointer(statuses, alignof(bladefit_status))}) {
+    if (status != BLADEFIT_OK) return status;
   }
-  Verdict result;
-  const Status status = handle->localizer->push(translated, result);
-  if (succeeded(status) && status != Status::duplicate) *verdict = bladefit::translate_verdict(result);
-  return to_abi(status);
+  bladefit_status outcome = BLADEFIT_OK;
+  for (std::size_t k = 0; k < count; ++k) {
+    statuses[k] = push_one(*handle->localizer, points + k, verdicts + k);
+    if (statuses[k] < 0) outcome = BLADEFIT_POINTS_REFUSED;
+  }
+  return outcome;
 }
 
 bladefit_status bladefit_next_revision(bladefit_handle* handle, bladefit_verdict* verdict) {

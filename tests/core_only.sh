@@ -38,6 +38,7 @@ int main(void) {
   bladefit_point point;
   bladefit_verdict verdict;
   bladefit_fit_report report;
+  bladefit_status pushed;
   int refused = 0;
   memset(&point, 0, sizeof point);
   if (bladefit_abi_version() != BLADEFIT_ABI_VERSION) return 1;
@@ -45,6 +46,7 @@ int main(void) {
   if (bladefit_design_check(design, sizeof design) != BLADEFIT_BAD_MAGIC) return 5;
   if (bladefit_init(memory, sizeof memory, design, sizeof design, &config, &handle) >= 0) return 3;
   refused += bladefit_push(handle, &point, &verdict) < 0;
+  refused += bladefit_push_many(handle, &point, 1, &verdict, &pushed) < 0;
   refused += bladefit_next_revision(handle, &verdict) < 0;
   refused += bladefit_refine(handle, 1) < 0;
   refused += bladefit_conclude(handle) < 0;
@@ -52,7 +54,7 @@ int main(void) {
   refused += bladefit_verdict_of(handle, 1, &verdict) < 0;
   refused += bladefit_reset(handle) < 0;
   printf("%s\n", bladefit_status_text(BLADEFIT_BAD_MAGIC));
-  return refused == 7 ? 0 : 4;
+  return refused == 8 ? 0 : 4;
 }
 END
 "${CC:-cc}" -std=c99 -pedantic -Wall -Wextra -Werror -I. "$scratch/host.c" "${archives[@]}" -lm -o "$scratch/host"

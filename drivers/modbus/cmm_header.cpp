@@ -121,14 +121,6 @@ std::uint16_t status_bits(std::uint16_t status, const CmmMap& map, bool& unknown
   return unknown ? std::uint16_t{0} : found->first;
 }
 
-/// The settings that make the map's order the proven one.
-std::string order_settings(const CmmMap& map, const RegisterOrder& proven) {
-  std::string text;
-  if (proven.words != map.word_order) text += fmt::format("word_order = \"{}\"", name_of(kWordOrders, proven.words));
-  if (proven.bytes == map.byte_order) return text;
-  return text + fmt::format("{}byte_order = \"{}\"", text.empty() ? "" : " and ", name_of(kByteOrders, proven.bytes));
-}
-
 }  // namespace
 
 RegisterBlock header_block(const CmmMap& map) {
@@ -185,6 +177,13 @@ Failure check_header(const CmmHeader& header, const CmmMap& map) {
   return device_failure(
       fmt::format("its ring of {} records ends at register {}, beyond 65535; correct ring_capacity in the device file",
                   header.capacity, end - 1));
+}
+
+std::string order_settings(const CmmMap& map, const RegisterOrder& order) {
+  std::string text;
+  if (order.words != map.word_order) text += fmt::format("word_order = \"{}\"", name_of(kWordOrders, order.words));
+  if (order.bytes == map.byte_order) return text;
+  return text + fmt::format("{}byte_order = \"{}\"", text.empty() ? "" : " and ", name_of(kByteOrders, order.bytes));
 }
 
 Failure check_map(const CmmMap& map) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "drivers/modbus/modbus_settings.hpp"
 #include "drivers/source/failure.hpp"
@@ -42,6 +43,9 @@ struct RegisterBlock {
 /// Why the device cannot be read with this map: another version, word order or record size, an impossible ring.
 /// Failure `device`: one phrase with the fix.
 [[nodiscard]] Failure check_header(const CmmHeader& header, const CmmMap& map);
+
+/// What to write into the device file where its registers come in this order: the settings that the map has otherwise.
+[[nodiscard]] std::string order_settings(const CmmMap& map, const RegisterOrder& order);
 
 /// Why a map contradicts itself (too many registers in the header or a record, fields that leave the record, a scale
 /// that is 0 or not finite). bad_input: one phrase with the fix.

@@ -47,6 +47,10 @@ struct RegisterOrder {
 
 enum class RegisterTable : std::uint8_t { input, holding };
 
+/// The tables as a device file and messages call them.
+inline constexpr std::array<std::pair<std::string_view, RegisterTable>, 2> kRegisterTables = {
+    {{"input", RegisterTable::input}, {"holding", RegisterTable::holding}}};
+
 /// A number in registers. Its value is scale * raw.
 struct NumberField {
   bool present = true;        ///< false: the device has no such register
@@ -61,6 +65,7 @@ struct CmmMap {
   WordOrder word_order = WordOrder::high_first;
   ByteOrder byte_order = ByteOrder::high_first;
   RegisterTable table = RegisterTable::input;  ///< of the header and of the records
+  std::uint16_t address_base = 0;  ///< what the device file counts its addresses from; those here count from 0
 
   NumberField version{true, cmm_map_v1::kVersionRegister, NumberType::uint16, 1};
   std::uint32_t expected_version = cmm_map_v1::kVersion;

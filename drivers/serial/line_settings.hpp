@@ -1,12 +1,19 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "drivers/serial/protocol_v1.hpp"
 
 namespace bladefit {
 
 enum class Parity : std::uint8_t { none, even, odd };
+
+/// The parities as a device file and messages call them.
+inline constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = {
+    {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
 
 /// A serial port and how it is set.
 struct SerialLineSettings {

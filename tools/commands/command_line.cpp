@@ -9,9 +9,11 @@
 
 #include "tools/commands/compile_command.hpp"
 #include "tools/commands/decimal_numbers.hpp"
+#include "tools/commands/doctor_command.hpp"
 #include "tools/commands/help_commands.hpp"
 #include "tools/commands/localize_command.hpp"
 #include "tools/commands/loft_command.hpp"
+#include "tools/commands/memory_command.hpp"
 #include "tools/commands/panel_command.hpp"
 #include "tools/commands/recover_command.hpp"
 #include "tools/commands/report_command.hpp"
@@ -102,6 +104,8 @@ int run_command_line(int argc, char** argv) {
   add_show_command(app, exit_code);
   add_localize_command(app, exit_code);
   add_simulate_command(app, exit_code);
+  add_memory_command(app, exit_code);
+  add_doctor_command(app, exit_code);
   add_run_command(app, exit_code);
   add_panel_command(app, exit_code);
   add_report_command(app, exit_code);

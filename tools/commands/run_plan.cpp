@@ -9,12 +9,11 @@
 #include <fstream>
 #include <utility>
 
-#include "config/device_settings.hpp"
-#include "drivers/source_registry.hpp"
 #include "drivers/source_uri.hpp"
 #include "firmware_bridge/host/journal/session_file_names.hpp"
 #include "firmware_bridge/host/panel/panel_address.hpp"
 #include "tools/batch/tip_radius.hpp"
+#include "tools/commands/session_source.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/web/web_panel.hpp"
 
@@ -46,24 +45,7 @@ SessionSettings merged_session(const RunFlags& flags) {
 
 /// `flags` win over what a device file says of its recording; `plan` stands in where neither says anything.
 SourceSettings plan_source(const SessionSettings& session, const FitSettings& flags, const PointsFormat& plan) {
-  SourceSettings source;
-  if (session.device) {
-    if (const Failure error = load_device(*session.device, source)) throw ToolError(error);
-  }
-  if (session.source) {
-    if (const Failure failure = apply_source_uri(*session.source, source)) throw ToolError(failure);
-  }
-  const SourceProtocol* const protocol = protocol_of(source);
-  if (protocol == nullptr) {
-    throw ToolError(
-        "no source is given; name one with --source, for example modbus-tcp://192.168.0.10:502, or in the "
-        "session file");
-  }
-  if (const std::string place = protocol->place(source); place.empty() || place.starts_with("//:")) {
-    throw ToolError(fmt::format("{}: it does not say where the machine is; write it there, or name it with --source{}",
-                                session.device.value_or("source"),
-                                protocol->form.empty() ? std::string() : fmt::format(" {}", protocol->form)));
-  }
+  SourceSettings source = source_of(session);
   auto* const replay = std::get_if<ReplaySettings>(&source);
   if (replay != nullptr) {
     PointsFormat& format = replay->format;

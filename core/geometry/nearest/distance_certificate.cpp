@@ -27,12 +27,11 @@ constexpr auto make_inverse_binomials() {
 }
 constexpr auto kInverseBinomial = make_inverse_binomials();
 
-/// Coefficients row by row in u; Eigen::Dynamic sizes live in place too, up to the largest degree.
+/// Coefficients row by row in u.
 template <int Rows, int Columns>
-using Coefficients = Eigen::Array<double, Rows, Columns, Eigen::RowMajor, Rows == Eigen::Dynamic ? kBinomialRows : Rows,
-                                  Columns == Eigen::Dynamic ? kBinomialRows : Columns>;
+using Coefficients = Eigen::Array<double, Rows, Columns, Eigen::RowMajor>;
 
-constexpr int less(int size) { return size == Eigen::Dynamic ? size : size - 1; }
+constexpr int less(int size) { return size - 1; }
 
 /// Differences of neighbours in u and in v.
 template <int R, int C>
@@ -62,6 +61,44 @@ DerivativeRanges ranges_of(const Coefficients<R, C>& g, double rounding) {
           range_of<less(R), less(C)>(rise_v<less(R), C>(g_u), m * n, rounding),
           range_of<R, less(less(C))>(rise_v<R, less(C)>(g_v), n * (n - 1.0), rounding)};
 }
+
+/// The same of coefficients of any degree, the differences taken one by one: copies of them would fill the stack.
+class AnyRanges {
+ public:
+  /// c(k, l) = coefficients[k * (n + 1) + l].
+  AnyRanges(const double* coefficients, std::uint32_t m, std::uint32_t n) : c_(coefficients), m_(m), n_(n) {}
+
+  [[nodiscard]] DerivativeRanges get(double rounding) const {
+    const auto m = static_cast<double>(m_), n = static_cast<double>(n_);
+    const auto u = [this](auto k, auto l) { return at(k + 1, l) - at(k, l); };
+    const auto v = [this](auto k, auto l) { return at(k, l + 1) - at(k, l); };
+    return {range(m_ - 1, n_, m, rounding, u), range(m_, n_ - 1, n, rounding, v),
+            range(m_ - 2, n_, m * (m - 1.0), rounding, [&](auto k, auto l) { return u(k + 1, l) - u(k, l); }),
+            range(m_ - 1, n_ - 1, m * n, rounding, [&](auto k, auto l) { return u(k, l + 1) - u(k, l); }),
+            range(m_, n_ - 2, n * (n - 1.0), rounding, [&](auto k, auto l) { return v(k, l + 1) - v(k, l); })};
+  }
+
+ private:
+  [[nodiscard]] double at(std::uint32_t k, std::uint32_t l) const { return c_[k * (n_ + 1) + l]; }
+
+  /// As range_of(), of the values with k up to `last_k` and l up to `last_l`.
+  template <class Value>
+  [[nodiscard]] static ValueRange range(std::uint32_t last_k, std::uint32_t last_l, double factor, double rounding,
+                                        Value value) {
+    double least = value(0U, 0U), most = least;
+    for (std::uint32_t k = 0; k <= last_k; ++k) {
+      for (std::uint32_t l = 0; l <= last_l; ++l) {
+        const double x = value(k, l);
+        least = std::min(least, x);
+        most = std::max(most, x);
+      }
+    }
+    return {factor * (least - rounding), factor * (most + rounding)};
+  }
+
+  const double* c_;
+  std::uint32_t m_, n_;  ///< degrees, 2 at least
+};
 
 }  // namespace
 
@@ -136,8 +173,11 @@ bool DistanceForm::farther(double tolerance) const {
 DerivativeRanges DistanceForm::ranges() const {
   const double rounding = 1e-14 * size_;
   if (m_ == 6 && n_ == 6) return ranges_of<7, 7>(Eigen::Map<const Coefficients<7, 7>>(c_.data()), rounding);
-  using Any = Coefficients<Eigen::Dynamic, Eigen::Dynamic>;
-  return ranges_of<Eigen::Dynamic, Eigen::Dynamic>(Eigen::Map<const Any>(c_.data(), m_ + 1, n_ + 1), rounding);
+  return AnyRanges(c_.data(), m_, n_).get(rounding);
+}
+
+[[gnu::noinline]] DerivativeRanges distance_ranges(const BezierNet& net, const Vec3& r, double bound) {
+  return DistanceForm(net, r, bound).ranges();
 }
 
 }  // namespace bladefit

@@ -41,4 +41,7 @@ class DistanceForm {
   std::array<double, kMaxProductOrder * kMaxProductOrder> c_;
 };
 
+/// The ranges of the form alone, whose coefficients leave the stack with the call.
+[[nodiscard]] DerivativeRanges distance_ranges(const BezierNet& net, const Vec3& r, double bound);
+
 }  // namespace bladefit

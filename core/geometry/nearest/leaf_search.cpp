@@ -106,7 +106,7 @@ class LeafSearch {
     if (bound == limit && form.farther(nearest_.slack() * (2.0 * bound + nearest_.slack()))) return Fate::settled;
     if (poles_.any() && is_one_foot(piece.rect, range.least)) return Fate::settled;
     DerivativeRanges ranges = form.ranges();
-    if (patch_.rational != 0) ranges = hull(ranges, DistanceForm(net_, query_.point, range.least).ranges());
+    if (patch_.rational != 0) ranges = hull(ranges, distance_ranges(net_, query_.point, range.least));
     return decide(piece, prove(ranges, piece.shape()));
   }
 
