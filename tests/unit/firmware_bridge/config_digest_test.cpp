@@ -60,6 +60,29 @@ TEST(ConfigDigest, EachFieldChangesIt) {
   EXPECT_TRUE(digests.insert(config_digest(config, 1)).second) << "points of a refinement";
 }
 
+TEST(ConfigDigest, EachFieldOfAZoneChangesIt) {
+  LocalizerConfig config = config_with_boxes();
+  config.tolerance.zone_count = 2;
+  for (std::uint32_t k = 0; k < 2; ++k) config.tolerance.zones[k] = {Region::rest, false, 10, 20, 0.1, 0.05};
+  std::set<std::uint64_t> digests{config_digest(config, 0), config_digest(config_with_boxes(), 0)};
+  std::size_t fields = 0;
+  for_each_field(config, [&fields](const std::string& name, const auto&) {
+    fields += name.starts_with("tolerance.zone") || name.starts_with("tolerance.axis") ? 1 : 0;
+  });
+  EXPECT_EQ(fields, 1U + 2U * 6U + 6U);
+  for (std::size_t wanted = 0; wanted < fields; ++wanted) {
+    LocalizerConfig changed = config;
+    std::size_t index = 0;
+    for_each_field(changed, [&](const std::string& name, auto& field) {
+      if (!name.starts_with("tolerance.zone") && !name.starts_with("tolerance.axis")) return;
+      if (index++ == wanted) change(field);
+    });
+    EXPECT_TRUE(digests.insert(config_digest(changed, 0)).second) << wanted;
+  }
+  config.tolerance.zones[2].plus_mm = 7;
+  EXPECT_TRUE(digests.contains(config_digest(config, 0))) << "a zone that is not in use plays no part";
+}
+
 TEST(ConfigDigest, BoxesThatAreNotInUsePlayNoPart) {
   LocalizerConfig config = config_with_boxes();
   const std::uint64_t digest = config_digest(config, 0);
