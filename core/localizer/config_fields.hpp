@@ -6,6 +6,26 @@
 
 namespace bladefit {
 
+/// The part of for_each_field() that is of zones.
+template <class Zones, class Count, class Axis, class Visit>
+void visit_zones(Zones& zones, Count& zone_count, Axis& axis, Visit& visit) {
+  if (zone_count == 0) return;
+  visit("tolerance.zone_count", zone_count);
+  const std::uint32_t zones_in_use = std::min(zone_count, std::uint32_t{ToleranceMap::kMaxZones});
+  for (std::uint32_t k = 0; k < zones_in_use; ++k) {
+    auto& [region, everywhere, radius_low_mm, radius_high_mm, plus_mm, minus_mm] = zones[k];
+    visit("tolerance.zones.region", region);
+    visit("tolerance.zones.everywhere", everywhere);
+    visit("tolerance.zones.radius_low_mm", radius_low_mm);
+    visit("tolerance.zones.radius_high_mm", radius_high_mm);
+    visit("tolerance.zones.plus_mm", plus_mm);
+    visit("tolerance.zones.minus_mm", minus_mm);
+  }
+  auto& [point, direction] = axis;
+  for (auto& entry : point.reshaped()) visit("tolerance.axis.point", entry);
+  for (auto& entry : direction.reshaped()) visit("tolerance.axis.direction", entry);
+}
+
 /// Calls visit(name, field) for every number, choice and flag of a configuration; of the leading-edge boxes and of the
 /// zones for those in use, of the boxes' zones those that have a number, and the axis where there are zones. The names
 /// are the members' paths, such as "tolerance.rest_mm". `Config` is LocalizerConfig, const or not: a visitor of one
@@ -44,22 +64,7 @@ void for_each_field(Config& config, Visit&& visit) {
   visit("tolerance.rest_mm", rest_mm);
   visit("tolerance.transition", transition);
   visit("tolerance.least_points", least_points);
-  const std::uint32_t zones_in_use = std::min(zone_count, std::uint32_t{ToleranceMap::kMaxZones});
-  if (zone_count != 0) visit("tolerance.zone_count", zone_count);
-  for (std::uint32_t k = 0; k < zones_in_use; ++k) {
-    auto& [region, everywhere, radius_low_mm, radius_high_mm, plus_mm, minus_mm] = zones[k];
-    visit("tolerance.zones.region", region);
-    visit("tolerance.zones.everywhere", everywhere);
-    visit("tolerance.zones.radius_low_mm", radius_low_mm);
-    visit("tolerance.zones.radius_high_mm", radius_high_mm);
-    visit("tolerance.zones.plus_mm", plus_mm);
-    visit("tolerance.zones.minus_mm", minus_mm);
-  }
-  auto& [axis_point, axis_direction] = axis;
-  if (zone_count != 0) {
-    for (auto& entry : axis_point.reshaped()) visit("tolerance.axis.point", entry);
-    for (auto& entry : axis_direction.reshaped()) visit("tolerance.axis.direction", entry);
-  }
+  visit_zones(zones, zone_count, axis, visit);
   auto& [rule, coverage_factor, probe_mm, probe_per_mm] = decision;
   visit("decision.rule", rule);
   visit("decision.coverage_factor", coverage_factor);
