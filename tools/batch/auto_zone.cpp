@@ -134,7 +134,7 @@ void plan_auto_zones(const std::vector<NumberedZone>& zones, const FitSettings& 
                      FitPlan& plan) {
   if (zones.empty()) {
     if (!settings.leading_edge_near && !settings.rotation) return;
-    throw ToolError(fmt::format("--{}: only for a leading edge that is auto:5mm or auto:3%; leave it out",
+    throw ToolError(fmt::format("--{}: only for --leading-edge auto:5mm or auto:3%; leave it out",
                                 settings.rotation ? "rotation" : "leading-edge-near"));
   }
   const std::string& title = zones.front().title;
