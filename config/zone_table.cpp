@@ -57,6 +57,7 @@ void read_zone_tables(TableReader& root, std::optional<std::vector<ZoneSettings>
                                          ToleranceMap::kMaxZones));
   }
   std::vector<ZoneSettings> read;
+  read.reserve(tables.size());
   for (TableReader& table : tables) read.push_back(read_zone(table, read));
   if (root.good()) zones = std::move(read);
 }
