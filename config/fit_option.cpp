@@ -163,8 +163,7 @@ constexpr std::array kOptions{
               "k of the expanded uncertainty U = k u (default 2: some 95 %)", "2.0"},
     FitOption{"least_points", NumberOption{&S::least_points, 1, 1e6},
               [](const S& s, double, C& c) { c.tolerance.least_points = static_cast<std::uint32_t>(*s.least_points); },
-              "judged points that each leading-edge zone needs; with fewer the blade is not decided (default 1)", "1",
-              false},
+              "judged points that each zone needs; with fewer the blade is not decided (default 1)", "1", false},
     FitOption{"axis", AxisOption{&S::axis}, nullptr,
               "axis of the shaft in the design, from which radii are measured: x (default), y, z, or x0,y0,z0,i,j,k, a "
               "point of it in units and its direction",
@@ -191,6 +190,7 @@ FitSettings merged(const FitSettings& flags, const FitSettings& file) {
     };
     std::visit(fill, option.kind);
   }
+  if (!out.zones) out.zones = file.zones;
   return out;
 }
 

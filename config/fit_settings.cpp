@@ -4,6 +4,7 @@
 
 #include "config/fit_table.hpp"
 #include "config/report_identity.hpp"
+#include "config/zone_table.hpp"
 
 namespace bladefit {
 
@@ -13,6 +14,7 @@ Failure load_fit(const std::string& path, FitSettings& settings) {
   FitSettings read = settings;
   TableReader root(document, document.root, "");
   if (std::optional<TableReader> fit = root.table("fit")) read_fit_table(*fit, read);
+  read_zone_tables(root, read.zones);
   ReportIdentity checked;
   if (std::optional<TableReader> report = root.table("report")) read_report_table(*report, checked);
   root.finish();

@@ -8,6 +8,7 @@
 #include "config/fit_text.hpp"
 #include "config/length.hpp"
 #include "config/outward_option.hpp"
+#include "config/zone_settings.hpp"
 #include "core/fit/fit_mode.hpp"
 #include "core/fit/loss.hpp"
 #include "core/fit/point_policy.hpp"
@@ -50,15 +51,18 @@ struct FitSettings {
   std::optional<Length> probe_uncertainty;  ///< standard uncertainty of a distance that comes from the probe
   std::optional<ProbeError> mpe;            ///< largest error of the machine, from its data sheet
   std::optional<double> coverage_factor;
-  std::optional<double> least_points;  ///< judged points that each leading-edge zone needs; a whole number
+  std::optional<double> least_points;  ///< judged points that each zone needs; a whole number
+  /// Parts of the blade with tolerances of their own, by falling precedence; of the tables [[zone]] beside [fit].
+  std::optional<std::vector<ZoneSettings>> zones;
+  std::string zones_file;  ///< that they were read from, where it is one of its own
 };
 
 /// The word in place of a file of point pairs: the start pose is searched.
 inline constexpr std::string_view kSearchStart = "search";
 
-/// Reads the table [fit] of a TOML file such as config/fit.toml into `settings`. Relative paths are those of the file's
-/// folder, made ready to be used from the working directory.
-/// Errors: unreadable file, TOML syntax, unknown key, wrong type, out of range; then `settings` is as before.
+/// Reads the tables [fit] and [[zone]] of a TOML file such as config/fit.toml into `settings`. Relative paths are those
+/// of the file's folder, made ready to be used from the working directory. Errors: unreadable file, TOML syntax,
+/// unknown key, wrong type, out of range; then `settings` is as before.
 [[nodiscard]] Failure load_fit(const std::string& path, FitSettings& settings);
 
 }  // namespace bladefit

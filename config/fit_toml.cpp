@@ -30,6 +30,20 @@ std::string comment(std::string_view text) {
   return out + "\n";
 }
 
+/// Examples of tables [[zone]].
+std::string zones_toml() {
+  return "\n" +
+         comment(
+             "Tolerances zone by zone, in place of leading_edge, tolerance, ratio and transition above. A point is "
+             "judged by the first zone that its foot lies in, outside of all by rest_tolerance. where: a leading "
+             "edge as leading_edge takes it, a band of radii r/R 0.7:1.0 (limits included, from 0 to 1.2, of "
+             "tip_radius about axis), or both: then within that band; plus: excess material that is allowed, "
+             "minus: missing material, in units. Modes with zones: least_squares, minimax, range") +
+         "# [[zone]]\n# name = \"tip edge\"\n# where = \"auto:5mm r/R 0.7:1.0\"\n# plus = 0.10\n# minus = 0.05\n"
+         "\n# [[zone]]\n# name = \"outer blade\"\n# where = \"r/R 0.7:1.0\"\n# plus = \"0.3mm\"\n# minus = "
+         "\"0.2mm\"\n";
+}
+
 /// The table [report], whose texts are those of an example.
 std::string report_toml() {
   std::string text =
@@ -48,7 +62,7 @@ std::string fit_toml() {
     text += "\n" + comment(option.help);
     text += fmt::format("{}{} = {}\n", option.active ? "" : "# ", option.key, option.example);
   }
-  return text + report_toml();
+  return text + zones_toml() + report_toml();
 }
 
 }  // namespace bladefit

@@ -10,6 +10,7 @@
 
 #include "config/fit_table.hpp"
 #include "config/table_reader.hpp"
+#include "config/zone_table.hpp"
 #include "core/localizer/check_config.hpp"
 #include "drivers/modbus/modbus_settings.hpp"
 #include "drivers/source_registry.hpp"
@@ -99,6 +100,7 @@ Failure load_session(const std::string& path, SessionSettings& settings) {
   root.read("headless", read.headless);
   read_plan(root, read.plan);
   if (std::optional<TableReader> fit = root.table("fit")) read_fit_table(*fit, read.fit);
+  read_zone_tables(root, read.fit.zones);
   if (std::optional<TableReader> panel = root.table("panel")) read_panel(*panel, read.panel);
   if (std::optional<TableReader> report = root.table("report")) read_report_table(*report, read.report);
   root.finish();

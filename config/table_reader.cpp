@@ -259,6 +259,23 @@ std::optional<TableReader> TableReader::table(std::string_view key) {
   return std::nullopt;
 }
 
+std::vector<TableReader> TableReader::tables(std::string_view key) {
+  std::vector<TableReader> tables;
+  const toml::node* node = find(key);
+  if (node == nullptr) return tables;
+  const bool fits = node->is_array() && !node->as_array()->empty() &&
+                    std::ranges::all_of(*node->as_array(), [](const toml::node& item) { return item.is_table(); });
+  if (!fits) {
+    fail(key, fmt::format("must be tables, each with [[{}]] above it", full_name(key)));
+    return tables;
+  }
+  for (const toml::node& item : *node->as_array()) {
+    tables.push_back(
+        TableReader(*document_, *item.as_table(), fmt::format("{}[{}]", full_name(key), tables.size() + 1)));
+  }
+  return tables;
+}
+
 void TableReader::finish() {
   if (!good()) return;
   for (const auto& [key, node] : *table_) {

@@ -121,6 +121,9 @@ class TableReader {
   /// A table inside this one; nothing where it is absent or something is wrong.
   [[nodiscard]] std::optional<TableReader> table(std::string_view key);
 
+  /// The tables of a list of them, [[key]], in their order; empty where it is absent or something is wrong.
+  [[nodiscard]] std::vector<TableReader> tables(std::string_view key);
+
   /// Reports that the value of a key cannot be used.
   void fail(std::string_view key, const std::string& what);
 

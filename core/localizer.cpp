@@ -31,7 +31,8 @@ bool settled(const LocalizerParts& p) {
   if (p.refinement.phase() == RefinementPhase::done) return true;
   if (p.plan.bounded()) return false;  // a later point that does not fit moves its pose far
   const ToleranceMap& map = p.problem.config.tolerance;
-  return p.sums.moved_to(p.estimate.pose()) <= tuning::kRestShare * std::min(map.leading_edge_mm, map.rest_mm);
+  const double tightest = std::min(tightest_of(map, Region::leading_edge), tightest_of(map, Region::rest));
+  return p.sums.moved_to(p.estimate.pose()) <= tuning::kRestShare * tightest;
 }
 
 /// `at_rest`: what settled() says, which many points share.

@@ -38,6 +38,10 @@ BladeVerdict judge_blade(const BladeEvidence& evidence) {
 
 void ZoneCount::count(const Verdict& verdict, std::uint32_t sign) {
   if (!is_judged(verdict.state)) return;
+  if (map_.zone_count > 0) {
+    if (verdict.zone != 0) points_[verdict.zone - 1U] += sign;
+    return;
+  }
   const Foot& foot = verdict.foot;
   std::uint32_t counted = 0;  // a zone: on the common limit of two of its boxes a point is one point
   for (std::uint32_t k = 0; k < map_.box_count; ++k) {
@@ -49,12 +53,14 @@ void ZoneCount::count(const Verdict& verdict, std::uint32_t sign) {
   }
 }
 
+bool ZoneCount::lacks_points(std::uint32_t k) const {
+  if (map_.zone_count > 0) return std::isfinite(map_.zones[k].limits().nearer()) && points_[k] < map_.least_points;
+  return std::isfinite(map_.leading_edge_mm) && first_of_zone(map_, k) == k && points_[k] < map_.least_points;
+}
+
 std::uint32_t ZoneCount::missed() const {
-  if (!std::isfinite(map_.leading_edge_mm)) return 0;
   std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < map_.box_count; ++k) {
-    count += first_of_zone(map_, k) == k && points_[k] < map_.least_points ? 1U : 0U;
-  }
+  for (std::uint32_t k = 0; k < places(); ++k) count += lacks_points(k) ? 1U : 0U;
   return count;
 }
 

@@ -27,7 +27,7 @@ enum class Reason : std::uint8_t {
   far_start,        ///< the fit began too far off to be trusted, or the points are of another blade
   points_lost,      ///< points of the device never arrived
   points_refused,   ///< points arrived that cannot be used
-  zone_not_probed,  ///< a zone of the leading edge has too few judged points
+  zone_not_probed,  ///< a zone has too few judged points
   pending,          ///< points wait for a better determined fit
   undecided,        ///< points are too near to their tolerance for the uncertainty
   unfinished        ///< the stream ended before the machine said that it is finished
@@ -69,7 +69,7 @@ struct BladeEvidence {
   bool judged = false;                     ///< a tolerance is set
   std::uint32_t out = 0, pending = 0, undecided = 0;  ///< points
   std::uint32_t lost = 0, refused = 0;                ///< points
-  std::uint32_t zones_missed = 0;                     ///< zones of the leading edge with too few judged points
+  std::uint32_t zones_missed = 0;                     ///< zones with too few judged points
   bool finished = true;                               ///< no point is to come
   Reasons doubts;                                     ///< what was found against the fit elsewhere
 };
@@ -85,16 +85,21 @@ struct BladeVerdict {
 /// whatever was not seen leaves the blade not decided. All reasons that hold are told with any state.
 [[nodiscard]] BladeVerdict judge_blade(const BladeEvidence& evidence);
 
-/// How many points each zone of the leading edge has that were judged.
+/// How many points each zone has that were judged: each of those of the map, or where it has none, of the leading edge.
 class ZoneCount {
  public:
   explicit ZoneCount(const ToleranceMap& map) : map_(map) {}
-  /// `sign`: 1 to add the point, -1 modulo 2^32 to take it back.
+  /// `sign`: 1 to add the point, -1 modulo 2^32 to take it back. In a map with zones a point counts in its own alone.
   void count(const Verdict& verdict, std::uint32_t sign);
-  /// Zones with fewer points than each needs; 0 where the leading edge is not judged. Cost: linear in the zones.
+  /// Zones with fewer points than each needs; those without a tolerance need none. Cost: linear in the zones.
   [[nodiscard]] std::uint32_t missed() const;
-  /// Of the zone whose first box this is.
-  [[nodiscard]] std::uint32_t points(std::uint32_t box) const { return points_[box]; }
+  /// So many places there are: one a zone of the map; where it has none, one a box, of which the first one stands for
+  /// its zone.
+  [[nodiscard]] std::uint32_t places() const { return map_.zone_count > 0 ? map_.zone_count : map_.box_count; }
+  /// Whether the zone at place `k` has fewer points than it needs; false where the place stands for none.
+  [[nodiscard]] bool lacks_points(std::uint32_t k) const;
+  /// Of the zone at place `k`.
+  [[nodiscard]] std::uint32_t points(std::uint32_t k) const { return points_[k]; }
   void clear() { points_ = {}; }
 
  private:

@@ -9,12 +9,13 @@ constexpr double kMostUncertain = 1.0 / 3.0;
 }  // namespace
 
 PointState decide(DecisionRule rule, const JudgedDistance& judged) {
-  if (std::isinf(judged.tolerance)) return PointState::in;
-  const double size = std::abs(judged.distance), limit = judged.tolerance + judged.touching;
-  if (size - judged.expanded > limit) return PointState::out;
-  if (rule == DecisionRule::guarded) return size + judged.expanded <= limit ? PointState::in : PointState::undecided;
-  if (!(judged.uncertainty < kMostUncertain * judged.tolerance)) return PointState::pending;
-  return size > limit ? PointState::out : PointState::in;
+  const double plus = judged.allowed.plus() + judged.touching, minus = judged.allowed.minus() + judged.touching;
+  if (std::isinf(plus) && std::isinf(minus)) return PointState::in;
+  const double d = judged.distance, u = judged.expanded;
+  if (d - u > plus || -d - u > minus) return PointState::out;
+  if (rule == DecisionRule::guarded) return d + u <= plus && u - d <= minus ? PointState::in : PointState::undecided;
+  if (!(judged.uncertainty < kMostUncertain * judged.allowed.nearer())) return PointState::pending;
+  return d > plus || -d > minus ? PointState::out : PointState::in;
 }
 
 }  // namespace bladefit

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/inspection/limits.hpp"
 #include "core/inspection/verdict.hpp"
 
 namespace bladefit {
@@ -38,14 +39,15 @@ struct Decision {
 
 /// A distance, what is allowed, and how far both can be relied on. Lengths in mm.
 struct JudgedDistance {
-  double distance = 0, tolerance = 0;  ///< tolerance infinite: every distance is in
-  double uncertainty = 0;              ///< standard, from the pose
-  double expanded = 0;                 ///< U of Decision::expanded()
-  double touching = 0;                 ///< a distance above the tolerance by no more than this is within it
+  double distance = 0;
+  Limits allowed = Limits::both(0);  ///< both infinite: every distance is in
+  double uncertainty = 0;            ///< standard, from the pose
+  double expanded = 0;               ///< U of Decision::expanded()
+  double touching = 0;               ///< a distance beyond a limit by no more than this is within it
 };
 
 /// In, out, pending or undecided. By the simple rule a distance whose standard uncertainty reaches a third of the
-/// tolerance is pending, unless it is out by more than U: few points bend the fit until it passes through them.
+/// nearer limit is pending, unless it is out by more than U: few points bend the fit until it passes through them.
 [[nodiscard]] PointState decide(DecisionRule rule, const JudgedDistance& judged);
 
 }  // namespace bladefit

@@ -27,7 +27,8 @@ struct Verdict {
   std::uint32_t sequence = 0;
   Foot foot;
   Region region = Region::rest;
-  double tolerance_mm = 0;    ///< |distance| allowed at the foot; infinity where none was set
+  std::uint8_t zone = 0;      ///< of the tolerance map, from 1; 0: none of them
+  double tolerance_mm = 0;    ///< |distance| allowed at the foot, on the side of the distance; infinity: none was set
   double uncertainty_mm = 0;  ///< standard uncertainty of the distance that comes from the pose
   double expanded_mm = 0;     ///< expanded uncertainty of the distance, that of the probe included where it is known
   PointState state = PointState::pending;

@@ -29,6 +29,8 @@ ConfigFault check_sizes(const LocalizerConfig& c) {
     return out_of_range("refresh_per_push", "must be from 2 to 64");
   if (c.tolerance.box_count > ToleranceMap::kMaxBoxes)
     return out_of_range("tolerance.box_count", "must be at most 128");
+  if (c.tolerance.zone_count > ToleranceMap::kMaxZones)
+    return out_of_range("tolerance.zone_count", "must be at most 16");
   if (c.locked >= kLockAll) return out_of_range("locked", "must leave a degree of freedom free");
   if (c.further_starts > kMostFurtherStarts) return out_of_range("further_starts", "must be at most 12");
   return kNone;
@@ -41,7 +43,9 @@ ConfigFault check_finite(const LocalizerConfig& config) {
   for_each_field(config, [&fault](const char* name, const auto& field) {
     if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(field)>>) {
       const std::string_view path = name;
-      const bool may_be_infinite = path == "tolerance.leading_edge_mm" || path == "tolerance.rest_mm";
+      const bool may_be_infinite = path == "tolerance.leading_edge_mm" || path == "tolerance.rest_mm" ||
+                                   path == "tolerance.zones.plus_mm" || path == "tolerance.zones.minus_mm" ||
+                                   path == "tolerance.zones.radius_high_mm";
       const bool good = may_be_infinite ? !std::isnan(field) : std::isfinite(field);
       if (!good && !fault) fault = {name, "must be a finite number", Status::not_finite};
       if (!fault && std::isfinite(field) && std::abs(field) > kLargest)
@@ -61,6 +65,40 @@ ConfigFault check_tolerance(const ToleranceMap& map, std::size_t patches) {
     if (box.u_min > box.u_max) return out_of_range("tolerance.boxes.u_min", "must not be above u_max");
     if (box.v_min > box.v_max) return out_of_range("tolerance.boxes.v_min", "must not be above v_max");
   }
+  return kNone;
+}
+
+ConfigFault check_zone(const ToleranceZone& zone) {
+  if (!(zone.plus_mm > 0.0)) return out_of_range("tolerance.zones.plus_mm", "must be above 0");
+  if (!(zone.minus_mm > 0.0)) return out_of_range("tolerance.zones.minus_mm", "must be above 0");
+  if (zone.radius_low_mm < 0.0) return out_of_range("tolerance.zones.radius_low_mm", "must be 0 or more");
+  if (!(zone.radius_high_mm > zone.radius_low_mm))
+    return out_of_range("tolerance.zones.radius_high_mm", "must be above radius_low_mm");
+  return kNone;
+}
+
+/// A zone that is not everywhere has a box, and every box belongs to one of those.
+ConfigFault check_zones(const LocalizerConfig& c) {
+  const ToleranceMap& map = c.tolerance;
+  if (map.zone_count == 0) return kNone;
+  std::uint32_t with_boxes = 0;
+  for (std::uint32_t k = 0; k < map.box_count; ++k) {
+    const std::uint32_t zone = map.boxes[k].zone;
+    if (zone == 0 || zone > map.zone_count || map.zones[zone - 1].everywhere)
+      return out_of_range("tolerance.boxes.zone", "must be a zone that is not everywhere");
+    with_boxes |= 1U << zone;
+  }
+  for (std::uint32_t k = 0; k < map.zone_count; ++k) {
+    if (const ConfigFault fault = check_zone(map.zones[k])) return fault;
+    if (!map.zones[k].everywhere && (with_boxes >> (k + 1) & 1U) == 0)
+      return out_of_range("tolerance.zones.everywhere", "must be true of a zone without a box");
+  }
+  if (map.transition != 0.0) return out_of_range("tolerance.transition", "must be 0 where there are zones");
+  if (!(std::abs(map.axis.direction.norm() - 1.0) < kOrthogonal))
+    return out_of_range("tolerance.axis.direction", "must be of length 1");
+  // Their bounds are multiples of two tolerances, the same on both sides.
+  if (c.mode == FitMode::min_tolerance || c.mode == FitMode::constrained)
+    return out_of_range("mode", "must be least_squares, minimax or range where there are zones");
   return kNone;
 }
 
@@ -107,6 +145,7 @@ ConfigFault check_config(const LocalizerConfig& config, std::size_t patches) {
   if (const ConfigFault fault = check_finite(config)) return fault;
   if (const ConfigFault fault = check_lengths(config)) return fault;
   if (const ConfigFault fault = check_tolerance(config.tolerance, patches)) return fault;
+  if (const ConfigFault fault = check_zones(config)) return fault;
   if (const ConfigFault fault = check_decision(config.decision)) return fault;
   if (const ConfigFault fault = check_modes(config)) return fault;
   return check_start(config.start);

@@ -6,10 +6,31 @@
 
 namespace bladefit {
 
-/// Calls visit(name, field) for every number, choice and flag of a configuration; of the leading-edge boxes for those
-/// in use, and of their zones those that have a number. The names are the members' paths, such as "tolerance.rest_mm".
-/// `Config` is LocalizerConfig, const or not: a visitor of one that is not const may change the fields. A member that
-/// is added to one of the structs and is missing here does not compile, since a structured binding names all members.
+/// The part of for_each_field() that is of zones.
+template <class Zones, class Count, class Axis, class Visit>
+void visit_zones(Zones& zones, Count& zone_count, Axis& axis, Visit& visit) {
+  if (zone_count == 0) return;
+  visit("tolerance.zone_count", zone_count);
+  const std::uint32_t zones_in_use = std::min(zone_count, std::uint32_t{ToleranceMap::kMaxZones});
+  for (std::uint32_t k = 0; k < zones_in_use; ++k) {
+    auto& [region, everywhere, radius_low_mm, radius_high_mm, plus_mm, minus_mm] = zones[k];
+    visit("tolerance.zones.region", region);
+    visit("tolerance.zones.everywhere", everywhere);
+    visit("tolerance.zones.radius_low_mm", radius_low_mm);
+    visit("tolerance.zones.radius_high_mm", radius_high_mm);
+    visit("tolerance.zones.plus_mm", plus_mm);
+    visit("tolerance.zones.minus_mm", minus_mm);
+  }
+  auto& [point, direction] = axis;
+  for (auto& entry : point.reshaped()) visit("tolerance.axis.point", entry);
+  for (auto& entry : direction.reshaped()) visit("tolerance.axis.direction", entry);
+}
+
+/// Calls visit(name, field) for every number, choice and flag of a configuration; of the leading-edge boxes and of the
+/// zones for those in use, of the boxes' zones those that have a number, and the axis where there are zones. The names
+/// are the members' paths, such as "tolerance.rest_mm". `Config` is LocalizerConfig, const or not: a visitor of one
+/// that is not const may change the fields. A member that is added to one of the structs and is missing here does not
+/// compile, since a structured binding names all members.
 template <class Config, class Visit>
 void for_each_field(Config& config, Visit&& visit) {
   auto& [capacity, refresh_per_push, probe_radius_mm, use_approach, edges, noise_floor_mm, determined_mm, start,
@@ -27,7 +48,7 @@ void for_each_field(Config& config, Visit&& visit) {
   for (auto& entry : translation.reshaped()) visit("start.translation", entry);
   visit("window_low", window_low);
   visit("window_high", window_high);
-  auto& [boxes, box_count, leading_edge_mm, rest_mm, transition, least_points] = tolerance;
+  auto& [boxes, box_count, leading_edge_mm, rest_mm, transition, least_points, zones, zone_count, axis] = tolerance;
   visit("tolerance.box_count", box_count);
   const std::uint32_t boxes_in_use = std::min(box_count, std::uint32_t{ToleranceMap::kMaxBoxes});
   for (std::uint32_t k = 0; k < boxes_in_use; ++k) {
@@ -43,6 +64,7 @@ void for_each_field(Config& config, Visit&& visit) {
   visit("tolerance.rest_mm", rest_mm);
   visit("tolerance.transition", transition);
   visit("tolerance.least_points", least_points);
+  visit_zones(zones, zone_count, axis, visit);
   auto& [rule, coverage_factor, probe_mm, probe_per_mm] = decision;
   visit("decision.rule", rule);
   visit("decision.coverage_factor", coverage_factor);

@@ -29,8 +29,10 @@ Pose FitProblem::moved_and_held(const Pose& pose, const Vec6& x) const {
   return held(moved(pose, x, frame), config.start, config.locked);
 }
 
-double FitProblem::tolerance_of(const Foot& foot, Region region) const {
-  return tolerance_at(config.tolerance, region, foot.patch, foot.u, foot.v);
+double FitProblem::tolerance_of(const Foot& foot, MapPart part) const {
+  const ToleranceMap& map = config.tolerance;
+  if (part.zone != 0) return map.zones[part.zone - 1].limits().of(foot.distance);
+  return map.zone_count > 0 ? map.rest_mm : tolerance_at(map, part.region, foot.patch, foot.u, foot.v);
 }
 
 Status FitProblem::check(const ProbePoint& point) const {

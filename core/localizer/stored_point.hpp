@@ -17,6 +17,7 @@ struct StoredPoint {
   std::uint32_t sequence = 0, revision = 0;
   double tolerance = 0, uncertainty = 0, expanded = 0;
   Region region = Region::rest;
+  std::uint8_t zone = 0;                                                         ///< as that of a verdict
   PointState state = PointState::pending, reported_state = PointState::pending;  ///< reported: what the caller knows
   Action action = Action::none, reported_action = Action::none;
   bool queued = false;  ///< waits in the ring of revisions

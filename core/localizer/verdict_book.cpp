@@ -20,10 +20,17 @@ void VerdictBook::count(const StoredPoint& point, int sign) {
   if (point.state == PointState::rejected) rejected_ += one;
 }
 
+/// Region, zone and tolerance of a point follow its foot.
+void VerdictBook::follow_foot(StoredPoint& point) const {
+  const MapPart part = problem_.part_of(point.foot);
+  point.region = part.region;
+  point.zone = part.zone;
+  point.tolerance = problem_.tolerance_of(point.foot, part);
+}
+
 void VerdictBook::assign_region(StoredPoint& point) {
   count(point, -1);
-  point.region = problem_.region_of(point.foot);
-  point.tolerance = problem_.tolerance_of(point.foot, point.region);
+  follow_foot(point);
   count(point, +1);
 }
 
@@ -34,10 +41,11 @@ void VerdictBook::assign_region(StoredPoint& point) {
 VerdictBook::Finding VerdictBook::finding_of(const StoredPoint& point) const {
   const Foot& foot = point.foot;
   const double touching = tuning::kTouchingBound * problem_.frame.length, bound = point.tolerance + touching;
-  const auto judged = [&](double distance) {
-    return decide(problem_.config.decision.rule,
-                  {distance, point.tolerance, point.uncertainty, point.expanded, touching});
+  const Limits allowed = problem_.limits_of(point.zone, point.tolerance);
+  const auto judged_by = [&](const Limits& limits, double distance) {
+    return decide(problem_.config.decision.rule, {distance, limits, point.uncertainty, point.expanded, touching});
   };
+  const auto judged = [&](double distance) { return judged_by(allowed, distance); };
   const auto with_action = [&](PointState state) {
     const Action by_sign = foot.distance > 0.0 ? Action::cut : Action::weld;
     return Finding{state, state == PointState::out ? by_sign : Action::none};
@@ -45,40 +53,44 @@ VerdictBook::Finding VerdictBook::finding_of(const StoredPoint& point) const {
   if (point.outside_window) return {PointState::rejected, Action::none, LeftOut::window};
   if (foot.border == FootBorder::none || foot.border == FootBorder::joint) return with_action(judged(foot.distance));
   const bool far = foot.beyond > tuning::kFarBeyond * problem_.frame.length;
-  if (foot.beyond > bound) return far ? Finding{PointState::undecided} : Finding{judged(foot.beyond)};
+  if (foot.beyond > allowed.nearer() + touching) {
+    // Neither side is that of what lies beyond: between the two limits it is not known which one holds.
+    const bool between = foot.beyond <= allowed.farther() + touching;
+    if (far || between) return {PointState::undecided};
+    return {judged_by(Limits::both(allowed.farther()), foot.beyond)};
+  }
   // What is left of the distance at the end of a joint leads away from that.
   const double aside = std::sqrt(std::max(0.0, foot.distance * foot.distance - foot.beyond * foot.beyond));
-  if (foot.border == FootBorder::joint_end && aside > bound) return with_action(judged(aside));
+  if (foot.border == FootBorder::joint_end && aside > bound)
+    return with_action(judged(std::copysign(aside, foot.distance)));
   if (!point.fitted) return {PointState::rejected, Action::none, LeftOut::edge};
   return {judged(foot.distance)};
 }
 
 void VerdictBook::judge(StoredPoint& point, const Evidence& evidence) {
   if (point.tolerance != 0.0) count(point, -1);
-  if (!selection_.held()) {
-    point.region = problem_.region_of(point.foot);
-    point.tolerance = problem_.tolerance_of(point.foot, point.region);
-  }
+  if (!selection_.held()) follow_foot(point);
   assess(point, evidence);
   count(point, +1);
 }
 
 void VerdictBook::judge_aside(StoredPoint& point, const Evidence& evidence) const {
-  point.region = problem_.region_of(point.foot);
-  point.tolerance = problem_.tolerance_of(point.foot, point.region);
+  follow_foot(point);
   assess(point, evidence);
 }
 
 /// State, action and uncertainty of a point whose region and tolerance are known.
 void VerdictBook::assess(StoredPoint& point, const Evidence& evidence) const {
   const Foot& foot = point.foot;
+  const Limits allowed = problem_.limits_of(point.zone, point.tolerance);
+  point.tolerance = allowed.of(foot.distance);  // while regions are held the distance may have changed its side
   const PoseEstimate::DistanceUncertainty uncertainty = evidence.estimate.uncertainty_of(point.position, foot);
   point.uncertainty = uncertainty.standard;
   const double length = (apply(evidence.estimate.pose(), point.position) - problem_.frame.pivot).norm();
   point.expanded = problem_.config.decision.expanded(uncertainty.standard, length);
   point.fitted = !selection_.left_out(point, foot);
   const double pending_above =
-      tuning::kPendingShare * (std::isfinite(point.tolerance) ? point.tolerance : problem_.config.determined_mm);
+      tuning::kPendingShare * (std::isfinite(allowed.nearer()) ? allowed.nearer() : problem_.config.determined_mm);
   Finding finding = finding_of(point);
   if (finding.state != PointState::rejected) {
     if (!evidence.settled && is_judged(point.state)) return;
@@ -125,6 +137,7 @@ Verdict verdict_of(const StoredPoint& point) {
   verdict.sequence = point.sequence;
   verdict.foot = point.foot;
   verdict.region = point.region;
+  verdict.zone = point.zone;
   verdict.tolerance_mm = point.tolerance;
   verdict.uncertainty_mm = point.uncertainty;
   verdict.expanded_mm = point.expanded;

@@ -27,7 +27,7 @@ class VerdictBook {
   void judge_again(PointStore& store, std::uint32_t index, const Evidence& evidence);
   /// Judges a point that has no place and is counted nowhere.
   void judge_aside(StoredPoint& point, const Evidence& evidence) const;
-  /// Region and tolerance of a point follow its foot, although regions are held.
+  /// Region, zone and tolerance of a point follow its foot, although regions are held.
   void assign_region(StoredPoint& point);
 
   /// Takes the next changed verdict. False where there is none.
@@ -43,6 +43,7 @@ class VerdictBook {
     LeftOut left_out = LeftOut::none;
   };
   [[nodiscard]] Finding finding_of(const StoredPoint& point) const;
+  void follow_foot(StoredPoint& point) const;
   void judge(StoredPoint& point, const Evidence& evidence);
   void assess(StoredPoint& point, const Evidence& evidence) const;
   void count(const StoredPoint& point, int sign);

@@ -29,12 +29,13 @@ std::string place_text(const RidgeChoice& choice, const FitPlan& plan) {
                      shown.y(), shown.z(), plan.units);
 }
 
-[[noreturn]] void refuse(const std::vector<RidgeChoice>& choices, const FitPlan& plan, const std::string& fix) {
+[[noreturn]] void refuse(const std::vector<RidgeChoice>& choices, const FitPlan& plan, const std::string& title,
+                         const std::string& fix) {
   std::string places;
   for (std::size_t k = 0; k < std::min(choices.size(), kMostTold); ++k)
     places += (k == 0 ? "" : k + 1 == choices.size() ? " and " : ", ") + place_text(choices[k], plan);
   if (choices.size() > kMostTold) places += fmt::format(" and {} more", choices.size() - kMostTold);
-  throw ToolError(fmt::format("--leading-edge auto: {} may be the leading edge, in the middle at {}; {}",
+  throw ToolError(fmt::format("{}: {} may be the leading edge, in the middle at {}; {}", title,
                               choices.size() == 1 ? "one ridge" : fmt::format("{} ridges", choices.size()), places,
                               fix));
 }
@@ -63,17 +64,19 @@ RidgeChoice nearest_to(const std::vector<RidgeChoice>& choices, const Vec3& plac
       choices, {}, [&place](const RidgeChoice& choice) { return choice.blade->distance_of(choice.ridge, place); });
 }
 
-RidgeChoice leading_edge_of(std::vector<RidgeChoice> choices, const FitSettings& settings, const FitPlan& plan) {
+RidgeChoice leading_edge_of(std::vector<RidgeChoice> choices, const FitSettings& settings, const FitPlan& plan,
+                            const std::string& title) {
   constexpr const char* kFix = "add --leading-edge-near x,y,z, a place by the right one";
   if (settings.rotation) {
     const std::vector<RidgeChoice> all = choices;
     std::erase_if(choices, [&](const RidgeChoice& c) { return !(lead_of(c, *settings.rotation, plan.axis) > 0.0); });
     if (choices.empty())
-      refuse(all, plan, "none of them goes first with this --rotation about --axis; correct one of the two");
+      refuse(all, plan, title, "none of them goes first with this --rotation about --axis; correct one of the two");
   }
   if (settings.leading_edge_near) return nearest_to(choices, *settings.leading_edge_near * plan.mm_per_unit);
   if (choices.size() > 1) {
-    refuse(choices, plan, settings.rotation ? kFix : fmt::format("{}, or --rotation right or left about --axis", kFix));
+    refuse(choices, plan, title,
+           settings.rotation ? kFix : fmt::format("{}, or --rotation right or left about --axis", kFix));
   }
   return choices.front();
 }
@@ -127,14 +130,14 @@ std::string zone_note(const EdgeZone& asked, const RidgeZone& zone, const RidgeC
 
 }  // namespace
 
-void plan_auto_zones(const FitSettings& settings, const Surface& surface, FitPlan& plan) {
-  const std::vector<EdgeZone> zones = settings.leading_edge.value_or(std::vector<EdgeZone>());
-  const auto automatic = std::ranges::count_if(zones, [](const EdgeZone& zone) { return zone.reach > 0; });
-  if (automatic == 0) {
+void plan_auto_zones(const std::vector<NumberedZone>& zones, const FitSettings& settings, const Surface& surface,
+                     FitPlan& plan) {
+  if (zones.empty()) {
     if (!settings.leading_edge_near && !settings.rotation) return;
     throw ToolError(fmt::format("--{}: only for --leading-edge auto:5mm or auto:3%; leave it out",
                                 settings.rotation ? "rotation" : "leading-edge-near"));
   }
+  const std::string& title = zones.front().title;
   const std::vector<RidgedBlade> blades = find_ridges(surface, kZoneSections);
   std::vector<RidgeChoice> choices;
   for (const RidgedBlade& blade : blades) {
@@ -142,25 +145,35 @@ void plan_auto_zones(const FitSettings& settings, const Surface& surface, FitPla
   }
   if (choices.empty()) {
     throw ToolError(
-        "--leading-edge auto: no section of this design bends by 80 degrees within a tenth of its length, so that no "
-        "edge is found; give the zone as [PATCH:]u:0.4:0.6, and see where it is with bladefit show");
+        title +
+        ": no section of this design bends by 80 degrees within a tenth of its length, so that no edge is found; give "
+        "the zone as [PATCH:]u:0.4:0.6, and see where it is with bladefit show");
   }
-  const RidgeChoice choice = leading_edge_of(choices, settings, plan);
+  const RidgeChoice choice = leading_edge_of(choices, settings, plan, title);
   ToleranceMap& map = plan.localizer.tolerance;
-  const std::size_t most = (ToleranceMap::kMaxBoxes - map.box_count) / static_cast<std::size_t>(automatic);
-  for (std::size_t k = 0; k < zones.size(); ++k) {
-    if (!(zones[k].reach > 0)) continue;
-    const RidgeZone zone = ridge_zone(surface, *choice.blade, choice.ridge, {zones[k].reach, zones[k].percent}, most);
+  const std::size_t most = (ToleranceMap::kMaxBoxes - map.box_count) / zones.size();
+  for (const NumberedZone& asked : zones) {
+    const RidgeZone zone =
+        ridge_zone(surface, *choice.blade, choice.ridge, {asked.zone.reach, asked.zone.percent}, most);
     if (zone.boxes.size() > most) {
-      throw ToolError(fmt::format("--leading-edge: its zones need more than the {} boxes that are possible; give fewer",
-                                  ToleranceMap::kMaxBoxes));
+      throw ToolError(fmt::format("{}: its zones need more than the {} boxes that are possible; give fewer",
+                                  asked.title, ToleranceMap::kMaxBoxes));
     }
     for (ParameterBox box : zone.boxes) {
-      box.zone = static_cast<std::uint32_t>(k + 1);
+      box.zone = asked.number;
       map.boxes.at(map.box_count++) = box;
     }
-    plan.note += zone_note(zones[k], zone, choice, plan);
+    plan.note += zone_note(asked.zone, zone, choice, plan);
   }
+}
+
+void plan_auto_zones(const FitSettings& settings, const Surface& surface, FitPlan& plan) {
+  const std::vector<EdgeZone> zones = settings.leading_edge.value_or(std::vector<EdgeZone>());
+  std::vector<NumberedZone> automatic;
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    if (zones[k].reach > 0) automatic.push_back({zones[k], static_cast<std::uint32_t>(k + 1), "--leading-edge auto"});
+  }
+  plan_auto_zones(automatic, settings, surface, plan);
 }
 
 }  // namespace bladefit

@@ -13,6 +13,7 @@
 #include "tools/batch/edge_zone.hpp"
 #include "tools/batch/side_check.hpp"
 #include "tools/batch/start_pairs.hpp"
+#include "tools/batch/zone_plan.hpp"
 #include "tools/design/blade_choice.hpp"
 
 namespace bladefit {
@@ -126,6 +127,14 @@ void plan_radii(const FitSettings& settings, FitPlan& plan) {
 /// Distances as large as the blade judge nothing.
 void check_sizes(const FitSettings& settings, const FitPlan& plan, double longest_mm) {
   using Given = std::pair<const char*, std::optional<Length>>;
+  for (std::size_t k = 0; k < plan.zones.size(); ++k) {
+    const ToleranceZone& zone = plan.localizer.tolerance.zones.at(k);
+    if (zone.limits().farther() <= longest_mm) continue;
+    throw ToolError(
+        fmt::format("{}.{}: {:g} {} is more than the blade's longest side, {:.4g} {}; correct it or its unit",
+                    zone_title(plan, k), zone.plus_mm > longest_mm ? kPlusKey : kMinusKey,
+                    zone.limits().farther() / plan.mm_per_unit, plan.units, longest_mm / plan.mm_per_unit, plan.units));
+  }
   for (const auto& [flag, length] : {Given{"--tolerance", settings.tolerance},
                                      {"--loss-scale", settings.loss_scale},
                                      {"--probe-uncertainty", settings.probe_uncertainty}}) {
@@ -175,7 +184,11 @@ FitPlan plan_fit(const FitSettings& settings, const DesignImage& design) {
   plan_units(settings, design, plan);
   apply_fit_options(settings, plan.mm_per_unit, plan.localizer);
   plan_radii(settings, plan);
-  plan_auto_zones(settings, Surface(design), plan);
+  if (settings.zones) {
+    plan_zones(settings, Surface(design), plan);
+  } else {
+    plan_auto_zones(settings, Surface(design), plan);
+  }
   check_choices(settings, plan);
   const ToleranceMap& map = plan.localizer.tolerance;
   if (settings.tolerance && map.box_count == 0) {

@@ -13,12 +13,18 @@
 
 namespace bladefit {
 
+/// How a zone of the tolerance map is called, and where it is as it was given.
+struct PlannedZone {
+  std::string name, where;
+};
+
 /// A fit ready to run.
 struct FitPlan {
   std::string units = "mm";  ///< of lengths on the command line and in results
   double mm_per_unit = 1.0;
   PointsFormat points;  ///< of the points file
   LocalizerConfig localizer;
+  std::vector<PlannedZone> zones;            ///< of localizer.tolerance, in their order
   FootStarts starts = FootStarts::searched;  ///< of a batch fit
   ShaftAxis axis;                            ///< of the design [mm]
   double tip_radius_mm = 0;                  ///< R of r/R; 0 = the greatest distance of the surface from the axis

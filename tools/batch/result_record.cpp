@@ -60,6 +60,7 @@ ResultPoint point_of(const FittedPoint& fitted) {
           .v = foot.v,
           .kind = foot.kind,
           .region = verdict.region,
+          .zone = verdict.zone,
           .distance = foot.distance,
           .tolerance = verdict.tolerance_mm,
           .uncertainty = verdict.uncertainty_mm,
@@ -77,16 +78,26 @@ void set_tolerances(const FinishedFit& fit, Result& result) {
   const LocalizerConfig& config = fit.plan.localizer;
   const double factor = fit.report.mode_value_mm;
   const bool found = config.mode == FitMode::min_tolerance && factor > 0.0;
-  result.leading_edge.tolerance = found ? factor : config.tolerance.leading_edge_mm;
-  result.rest.tolerance = found ? config.ratio * factor : config.tolerance.rest_mm;
+  result.leading_edge.tolerance = found ? factor : tightest_of(config.tolerance, Region::leading_edge);
+  result.rest.tolerance = found ? config.ratio * factor : tightest_of(config.tolerance, Region::rest);
+}
+
+void add_zones(const FinishedFit& fit, Result& result) {
+  const ToleranceMap& map = fit.plan.localizer.tolerance;
+  for (std::size_t k = 0; k < fit.plan.zones.size(); ++k) {
+    const ToleranceZone& zone = map.zones.at(k);
+    const PlannedZone& planned = fit.plan.zones[k];
+    result.zones.push_back({planned.name, planned.where, zone.region, zone.plus_mm, zone.minus_mm});
+  }
+  if (!result.zones.empty()) result.rest_outside = map.rest_mm;
 }
 
 FitDetails details_of(const FinishedFit& fit) {
   const LocalizerConfig& config = fit.plan.localizer;
   return {.mode = config.mode,
           .ratio = config.ratio,
-          .leading_edge_tolerance = config.tolerance.leading_edge_mm,
-          .rest_tolerance = config.tolerance.rest_mm,
+          .leading_edge_tolerance = tightest_of(config.tolerance, Region::leading_edge),
+          .rest_tolerance = tightest_of(config.tolerance, Region::rest),
           .determined = fit.report.determined,
           .free = fit.report.free,
           .unproven = fit.report.unproven,
@@ -111,6 +122,7 @@ Result result_record(const FinishedFit& fit) {
   if (config.mode == FitMode::least_squares && determined) result.covariance = report.covariance;
   sum_up(fit, result);
   set_tolerances(fit, result);
+  add_zones(fit, result);
   const ToleranceMap& map = config.tolerance;
   result.boxes.assign(map.boxes.begin(), map.boxes.begin() + map.box_count);
   result.tolerance_factor = report.mode_value_mm;

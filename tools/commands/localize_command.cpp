@@ -89,6 +89,7 @@ void check_output_file(const std::string& output, const LocalizeFlags& flags, co
   refuse_overwriting(output, "subset", flags.subset);
   refuse_overwriting(output, "settings", flags.config);
   refuse_overwriting(output, "start pairs", start_file_of(settings));
+  refuse_overwriting(output, "zones", settings.zones_file);
 }
 
 /// Everything wrong with the outputs is said before the fit.

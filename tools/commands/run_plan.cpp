@@ -152,6 +152,7 @@ FileRoles inputs_of(const RunFlags& flags, const SessionSettings& session, const
           {"session file", flags.config},
           {"device file", session.device.value_or("")},
           {"start pairs", start_file_of(session.fit)},
+          {"zones", session.fit.zones_file},
           {"planned points", session.plan.value_or(PointPlan{}).file},
           {"recording", replay != nullptr ? replay->file : ""}};
 }

@@ -49,7 +49,7 @@ constexpr const char* kShowHelp = R"(
 Writes one HTML page that any browser of today opens, from a disk as well, without a network: the design in three
 dimensions, to be turned, zoomed and moved with mouse or fingers. On it its faces with their names and patch numbers, lines of constant
 u and v with their values, the ridges of greatest curvature, which are leading and trailing edges, the radii r/R about
---axis, and the zone of --leading-edge. A place that is pointed at tells its patch, u, v and r/R, which is what
+--axis, and the zone of --leading-edge, or each of the zones of --zones in a colour of its own. A place that is pointed at tells its patch, u, v and r/R, which is what
 --leading-edge [PATCH:]u:0.4:0.6 takes. With --points the points stand where they were measured: nothing is fitted.
 
 Examples:
@@ -70,8 +70,10 @@ std::vector<PagePoint> points_on(const Surface& surface, const FitPlan& plan, co
     const SurfacePoint foot = surface.evaluate(place);
     const Vec3 arm = query.point - foot.s;
     const double side = surface.outward(place, foot).dot(arm) < 0.0 ? -1.0 : 1.0;
+    const MapPart part = part_at(fit.tolerance, patch, place.u, place.v, foot.s);
+    const bool in_zone = part.zone != 0 || part.region == Region::leading_edge;
     points.push_back({points.size(), query.point, patch, place.u, place.v, side * arm.norm() - fit.probe_radius_mm,
-                      region_at(fit.tolerance, patch, place.u, place.v) == Region::leading_edge});
+                      in_zone, part.zone});
   }
   return points;
 }
@@ -94,6 +96,7 @@ PageContent content_of(const ShowFlags& flags, const LoadedDesign& loaded, const
   content.axis = plan.axis;
   content.tip_radius_mm = plan.tip_radius_mm > 0.0 ? plan.tip_radius_mm : tip_radius_of(surface, plan.axis);
   content.names = loaded.names;
+  for (const PlannedZone& zone : plan.zones) content.zone_names.push_back(zone.name);
   fill_page(surface, plan.localizer.tolerance, content);
   content.points = points_on(surface, plan, points_of(flags, plan));
   return content;
@@ -102,6 +105,7 @@ PageContent content_of(const ShowFlags& flags, const LoadedDesign& loaded, const
 void run_show(const ShowFlags& flags) {
   for (const std::string& design : flags.designs) refuse_overwriting(flags.output, "design", design);
   refuse_overwriting(flags.output, "points", flags.points);
+  refuse_overwriting(flags.output, "zones", flags.settings.zones_file);
   const LoadedDesign loaded = load_design(
       std::vector<std::filesystem::path>(flags.designs.begin(), flags.designs.end()), design_choice_of(flags.settings));
   DesignImage image;

@@ -62,8 +62,9 @@ std::string region_sentence(const Result& result, Region region) {
   const double tolerance = judged_tolerance(result, region);
   std::string text =
       fmt::format("{}: {}, ", leading_edge ? "Leading edge" : "Rest of the blade", counted(found.points, "point"));
-  if (!std::isfinite(tolerance)) return text + "no tolerance was set: not judged.";
-  text += fmt::format("tolerance ±{}; ", LengthText(result).with_unit(tolerance));
+  if (result.zones.empty() && !std::isfinite(tolerance)) return text + "no tolerance was set: not judged.";
+  text += result.zones.empty() ? fmt::format("tolerance ±{}; ", LengthText(result).with_unit(tolerance))
+                               : std::string("judged by zone; ");
   text += out_sentence(result, found);
   if (found.pending > 0)
     text += fmt::format(" {} of them not decided, because the points do not determine the fit there.", found.pending);
@@ -86,6 +87,7 @@ RegionFindings findings_of(const Result& result, Region region) {
 }
 
 double judged_tolerance(const Result& result, Region region) {
+  if (!result.zones.empty()) return std::numeric_limits<double>::infinity();
   if (result.mode != word_of(FitMode::min_tolerance))
     return (region == Region::leading_edge ? result.leading_edge : result.rest).tolerance;
   std::optional<double> widest;  // where a zone lies between the regions the rest's own is the widest

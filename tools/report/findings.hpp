@@ -21,7 +21,8 @@ struct RegionFindings {
 
 [[nodiscard]] RegionFindings findings_of(const Result& result, Region region);
 
-/// The tolerance by which points of a region were judged [mm]; infinity = not judged. In min_tolerance that of the
+/// The tolerance by which points of a region were judged [mm]; infinity = not judged, or by zones with limits of their
+/// own. In min_tolerance that of the
 /// result is the one that was found.
 [[nodiscard]] double judged_tolerance(const Result& result, Region region);
 

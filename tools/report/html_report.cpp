@@ -16,6 +16,7 @@
 #include "tools/report/spread_map.hpp"
 #include "tools/report/statements.hpp"
 #include "tools/report/tolerance_scale.hpp"
+#include "tools/report/zone_table.hpp"
 #include "tools/results/words.hpp"
 
 namespace bladefit {
@@ -87,6 +88,7 @@ std::string html_report(const Result& result) {
   html += section("Certificate", listed(certificate_sentences(result)));
   html += section("Uncertainty and decision", sentence_list(decision_sentences(result)));
   html += section("Lost or not judged", sentence_list(omission_sentences(result)));
+  html += section("Zones", zone_table(result));
   html += section("Regions", region_table(result));
   html += section("Pose", pose_table(result));
   html += section("More defects", defect_table(result, kDefectsOnFirstPage, kMostDefects));

@@ -29,9 +29,11 @@ std::string region_row(const Result& result, Region region) {
   const double tolerance = judged_tolerance(result, region);
   const LengthText text(result);
   return cells({leading_edge ? "Leading edge" : "Rest of the blade", fmt::format("{}", sums.count),
-                std::isfinite(tolerance) ? "±" + text.plain(tolerance) : "not judged", text.plain(sums.rms_before),
-                text.plain(sums.rms_after), text.plain(sums.max_after), fmt::format("{}", found.cut),
-                fmt::format("{}", found.weld), fmt::format("{}", found.pending)});
+                !result.zones.empty()      ? "by zone"
+                : std::isfinite(tolerance) ? "±" + text.plain(tolerance)
+                                           : "not judged",
+                text.plain(sums.rms_before), text.plain(sums.rms_after), text.plain(sums.max_after),
+                fmt::format("{}", found.cut), fmt::format("{}", found.weld), fmt::format("{}", found.pending)});
 }
 
 std::string out_row(const Result& result, const ResultPoint& point) {

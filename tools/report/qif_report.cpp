@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "tools/files/sha256.hpp"
 #include "tools/report/findings.hpp"
@@ -15,14 +16,46 @@ namespace {
 
 /// Identities of what there is once, then of what every point has: `first` on, kPerPoint each.
 enum Once : std::uint32_t { kStandard = 1, kFeatureDefinition, kFirstCharacteristic };
-constexpr std::uint32_t kRegions = 2, kPerRegion = 2, kPerPoint = 5;
+constexpr std::uint32_t kPerTolerance = 2, kPerPoint = 5;
 enum Each : std::uint32_t { kNominal, kItem, kMeasurement, kCharacteristicItem, kCharacteristicMeasurement };
-constexpr std::uint32_t kResults = kFirstCharacteristic + kRegions * kPerRegion, kFirstPoint = kResults + 1;
 
-std::uint32_t definition_of(Region region) {
-  return kFirstCharacteristic + kPerRegion * static_cast<std::uint32_t>(region);
+/// Limits that points are judged by.
+struct ProfileTolerance {
+  std::string name;
+  double plus = 0, minus = 0;
+
+  /// The zone lies about the surface; where no tolerance is set it has no width.
+  [[nodiscard]] double width() const { return std::isfinite(plus + minus) ? plus + minus : 0; }
+  /// How far its middle lies above the surface.
+  [[nodiscard]] double middle() const { return std::isfinite(plus + minus) ? 0.5 * (plus - minus) : 0; }
+};
+
+/// Those of both regions, or where there are zones of the rest and of each zone.
+std::vector<ProfileTolerance> tolerances_of(const Result& result) {
+  std::vector<ProfileTolerance> list;
+  if (result.zones.empty()) {
+    for (const Region region : {Region::rest, Region::leading_edge}) {
+      const double tolerance = judged_tolerance(result, region);
+      list.push_back({region == Region::leading_edge ? "leading edge" : "rest of the blade", tolerance, tolerance});
+    }
+    return list;
+  }
+  list.push_back({"rest of the blade", result.rest_outside, result.rest_outside});
+  for (const ResultZone& zone : result.zones) list.push_back({zone.name, zone.plus, zone.minus});
+  return list;
 }
-std::uint32_t nominal_of(Region region) { return definition_of(region) + 1; }
+
+std::size_t tolerance_of(const Result& result, const ResultPoint& point) {
+  return result.zones.empty() ? static_cast<std::size_t>(point.region) : point.zone;
+}
+
+std::uint32_t definition_of(std::size_t tolerance) {
+  return kFirstCharacteristic + kPerTolerance * static_cast<std::uint32_t>(tolerance);
+}
+std::uint32_t nominal_of(std::size_t tolerance) { return definition_of(tolerance) + 1; }
+std::uint32_t results_id(const Result& result) {
+  return definition_of(result.zones.empty() ? kRegionWords.size() : result.zones.size() + 1);
+}
 
 /// An identity of the document that is the same for the same result.
 std::string document_identity(const Result& result) {
@@ -92,7 +125,7 @@ std::string unit_xml(const Result& result) {
 }
 
 std::string head_xml(const Result& result) {
-  const auto id_max = static_cast<std::uint64_t>(kFirstPoint) + kPerPoint * std::uint64_t{result.points.size()};
+  const auto id_max = std::uint64_t{results_id(result)} + 1 + kPerPoint * std::uint64_t{result.points.size()};
   const std::string version = result.record ? result.record->version : "bladefit";
   return fmt::format(
              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<QIFDocument xmlns=\"http://qifstandards.org/xsd/qif3\" "
@@ -115,8 +148,8 @@ std::string place_text(const Result& result, const Vec3& place) {
   return fmt::format("{} {} {}", result.in_units(place.x()), result.in_units(place.y()), result.in_units(place.z()));
 }
 
-std::uint32_t id_of(std::size_t index, Each what) {
-  return kFirstPoint + kPerPoint * static_cast<std::uint32_t>(index) + what;
+std::uint32_t id_of(const Result& result, std::size_t index, Each what) {
+  return results_id(result) + 1 + kPerPoint * static_cast<std::uint32_t>(index) + what;
 }
 
 /// Calls `each(index, point)` for the points in their order and joins what it returns.
@@ -142,67 +175,72 @@ std::string features_xml(const Result& result) {
     return fmt::format(
         "   <PointFeatureNominal id=\"{}\"><FeatureDefinitionId>{}</FeatureDefinitionId><Location>{}"
         "</Location></PointFeatureNominal>\n",
-        id_of(index, kNominal), static_cast<std::uint32_t>(kFeatureDefinition), place_text(result, place));
+        id_of(result, index, kNominal), static_cast<std::uint32_t>(kFeatureDefinition), place_text(result, place));
   });
   xml += for_points(result, "FeatureItems", [&](std::size_t index, const ResultPoint& point) {
     return fmt::format(
         "   <PointFeatureItem id=\"{}\"><FeatureNominalId>{}</FeatureNominalId><FeatureName>P{}"
         "</FeatureName><DeterminationMode><Checked/></DeterminationMode></PointFeatureItem>\n",
-        id_of(index, kItem), id_of(index, kNominal), point.sequence);
+        id_of(result, index, kItem), id_of(result, index, kNominal), point.sequence);
   });
   return xml + " </Features>\n";
 }
 
 std::string characteristics_xml(const Result& result) {
   std::string definitions, nominals;
-  for (const Region region : {Region::rest, Region::leading_edge}) {
-    const double tolerance = judged_tolerance(result, region);
-    // The zone lies to both sides of the surface; where no tolerance is set it has no width.
-    const double width = std::isfinite(tolerance) ? 2 * result.in_units(tolerance) : 0;
-    const std::string name = region == Region::leading_edge ? "leading edge" : "rest of the blade";
+  const std::vector<ProfileTolerance> tolerances = tolerances_of(result);
+  for (std::size_t k = 0; k < tolerances.size(); ++k) {
+    const double middle = result.in_units(tolerances[k].middle());
+    const std::string unequal =
+        middle == 0 ? "" : fmt::format("<UnequallyDisposedZone>{}</UnequallyDisposedZone>", middle);
     definitions += fmt::format(
         "   <PointProfileCharacteristicDefinition id=\"{}\"><Name>{}</Name><ToleranceValue>{}"
-        "</ToleranceValue></PointProfileCharacteristicDefinition>\n",
-        definition_of(region), name, width);
+        "</ToleranceValue>{}</PointProfileCharacteristicDefinition>\n",
+        definition_of(k), escaped(tolerances[k].name), result.in_units(tolerances[k].width()), unequal);
     nominals += fmt::format(
         "   <PointProfileCharacteristicNominal id=\"{}\"><CharacteristicDefinitionId>{}"
         "</CharacteristicDefinitionId></PointProfileCharacteristicNominal>\n",
-        nominal_of(region), definition_of(region));
+        nominal_of(k), definition_of(k));
   }
   std::string xml = fmt::format(
-      " <Characteristics>\n  <FormalStandardId>{}</FormalStandardId>\n  <CharacteristicDefinitions n=\"2\">\n{}  "
-      "</CharacteristicDefinitions>\n  <CharacteristicNominals n=\"2\">\n{}  </CharacteristicNominals>\n",
-      static_cast<std::uint32_t>(kStandard), definitions, nominals);
+      " <Characteristics>\n  <FormalStandardId>{0}</FormalStandardId>\n  <CharacteristicDefinitions n=\"{3}\">\n{1}  "
+      "</CharacteristicDefinitions>\n  <CharacteristicNominals n=\"{3}\">\n{2}  </CharacteristicNominals>\n",
+      static_cast<std::uint32_t>(kStandard), definitions, nominals, tolerances.size());
   xml += for_points(result, "CharacteristicItems", [&](std::size_t index, const ResultPoint& point) {
     return fmt::format(
         "   <PointProfileCharacteristicItem id=\"{}\"><FeatureItemIds n=\"1\"><Id>{}</Id></FeatureItemIds>"
         "<Name>P{}</Name><CharacteristicNominalId>{}</CharacteristicNominalId>"
         "</PointProfileCharacteristicItem>\n",
-        id_of(index, kCharacteristicItem), id_of(index, kItem), point.sequence, nominal_of(point.region));
+        id_of(result, index, kCharacteristicItem), id_of(result, index, kItem), point.sequence,
+        nominal_of(tolerance_of(result, point)));
   });
   return xml + " </Characteristics>\n";
 }
 
 std::string results_xml(const Result& result) {
+  const std::vector<ProfileTolerance> tolerances = tolerances_of(result);
   std::string xml = fmt::format(" <Results>\n  <MeasurementResultsSet n=\"1\">\n  <MeasurementResults id=\"{}\">\n",
-                                static_cast<std::uint32_t>(kResults));
+                                results_id(result));
   xml += for_points(result, "MeasuredFeatures", [&](std::size_t index, const ResultPoint& point) {
     return fmt::format(
         "   <PointFeatureMeasurement id=\"{}\"><FeatureItemId>{}</FeatureItemId><Location>{}</Location>"
         "</PointFeatureMeasurement>\n",
-        id_of(index, kMeasurement), id_of(index, kItem), place_text(result, moved_point(result, point)));
+        id_of(result, index, kMeasurement), id_of(result, index, kItem),
+        place_text(result, moved_point(result, point)));
   });
   xml += "  <MeasuredCharacteristics>\n";
   xml += for_points(result, "CharacteristicMeasurements", [&](std::size_t index, const ResultPoint& point) {
     const double distance = result.in_units(point.distance);
+    const double middle = result.in_units(tolerances[tolerance_of(result, point)].middle());
     return fmt::format(
         "   <PointProfileCharacteristicMeasurement id=\"{}\"><Status><CharacteristicStatusEnum>{}"
         "</CharacteristicStatusEnum></Status><CharacteristicItemId>{}</CharacteristicItemId><FeatureMeasurementIds "
         "n=\"1\"><Id>{}</Id></FeatureMeasurementIds><Value>{}</Value><WorstPositiveDeviation>{}</"
         "WorstPositiveDeviation>"
         "<WorstNegativeDeviation>{}</WorstNegativeDeviation></PointProfileCharacteristicMeasurement>\n",
-        id_of(index, kCharacteristicMeasurement), point_status(point.state, point.tolerance),
-        id_of(index, kCharacteristicItem), id_of(index, kMeasurement), 2 * std::abs(distance), distance, distance);
+        id_of(result, index, kCharacteristicMeasurement), point_status(point.state, point.tolerance),
+        id_of(result, index, kCharacteristicItem), id_of(result, index, kMeasurement), 2 * std::abs(distance - middle),
+        distance, distance);
   });
   return xml + fmt::format(
                    "  </MeasuredCharacteristics>\n  <InspectionStatus><InspectionStatusEnum>{}"

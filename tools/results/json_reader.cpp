@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "config/zone_settings.hpp"
 #include "drivers/text/units.hpp"
 #include "tools/results/json_field.hpp"
 #include "tools/results/words.hpp"
@@ -99,12 +100,29 @@ std::vector<ParameterBox> read_boxes(const JsonField& leading_edge) {
   return boxes;
 }
 
+double limit_of(const JsonField& field, double mm_per_unit) {
+  return field.is_null() ? std::numeric_limits<double>::infinity() : length_of(field, mm_per_unit);
+}
+
 /// A member that is one of `words`.
 template <typename Value, std::size_t count>
 Value read_word(const JsonField& field, const std::array<std::string_view, count>& words) {
   const std::optional<Value> value = value_of<Value>(words, field.text());
   if (!value) field.refuse("is none of the words that belong here");
   return *value;
+}
+
+/// The last one stands for what lies outside of all.
+void read_zones(const JsonField& list, Result& result) {
+  if (list.size() < 2 || list.size() > ToleranceMap::kMaxZones + 1) list.refuse("is no list of zones");
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const JsonField zone = list.element(k);
+    result.zones.push_back({zone["name"].text(), zone["where"].text(), read_word<Region>(zone["region"], kRegionWords),
+                            limit_of(zone[kPlusKey], result.mm_per_unit),
+                            limit_of(zone[kMinusKey], result.mm_per_unit)});
+  }
+  result.rest_outside = result.zones.back().plus;
+  result.zones.pop_back();
 }
 
 ResultVerdict read_verdict(const JsonField& json) {
@@ -166,6 +184,7 @@ ShaftAxis read_axis(const JsonField& json, double mm_per_unit) {
 
 /// What only some modes have, and what the files of earlier versions lack.
 void read_optional(const JsonField& root, Result& result) {
+  if (root.has("zones")) read_zones(root["zones"], result);
   if (root.has("tolerance_factor")) result.tolerance_factor = length_of(root["tolerance_factor"], result.mm_per_unit);
   if (root.has("certificate")) result.certificate = read_certificate(root["certificate"]);
   if (root.has("further_starts")) {

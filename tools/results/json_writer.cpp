@@ -3,7 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "config/zone_settings.hpp"
 #include "tools/results/words.hpp"
+#include "tools/results/zone_counts.hpp"
 
 namespace bladefit {
 namespace {
@@ -54,6 +56,28 @@ Json boxes_json(const std::vector<ParameterBox>& boxes) {
   Json list = Json::array();
   for (const ParameterBox& box : boxes)
     list.push_back({{"patch", box.patch}, {"u", {box.u_min, box.u_max}}, {"v", {box.v_min, box.v_max}}});
+  return list;
+}
+
+/// Each zone, and last what lies outside of all, with what its points came to.
+Json zones_json(const Result& result) {
+  Json list = Json::array();
+  const std::vector<ResultZone> zones = zones_and_rest(result);
+  const std::vector<ZoneCounts> counts = zone_counts(result);
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const ZoneCounts& points = counts[k];
+    list.push_back({{"name", zones[k].name},
+                    {"where", zones[k].where},
+                    {"region", word_of(zones[k].region)},
+                    {kPlusKey, length_or_null(zones[k].plus, result.mm_per_unit)},
+                    {kMinusKey, length_or_null(zones[k].minus, result.mm_per_unit)},
+                    {"count", points.points},
+                    {word_of(PointState::in), points.in},
+                    {word_of(Action::cut), points.cut},
+                    {word_of(Action::weld), points.weld},
+                    {"beyond", points.beyond},
+                    {"open", points.open}});
+  }
   return list;
 }
 
@@ -140,15 +164,17 @@ std::string indented(const Json& json, std::size_t depth) {
 }
 
 /// The list that ends the object, in the layout of dump(1).
-void write_points(const Rows<ResultPoint>& points, double mm_per_unit, const Put& put) {
+void write_points(const Result& result, const Put& put) {
   put(",\n \"points\": [");
   const char* between = "\n  ";
-  for (const ResultPoint& point : points) {
+  for (const ResultPoint& point : result.points) {
     put(between);
-    put(indented(point_json(point, mm_per_unit), 2));
+    Json json = point_json(point, result.mm_per_unit);
+    if (!result.zones.empty()) json["zone"] = zone_name(result, point.zone);
+    put(indented(json, 2));
     between = ",\n  ";
   }
-  put(points.empty() ? "]\n}\n" : "\n ]\n}\n");
+  put(result.points.empty() ? "]\n}\n" : "\n ]\n}\n");
 }
 
 /// Everything but the points.
@@ -170,6 +196,7 @@ Json head_json(const Result& result) {
   leading_edge["boxes"] = boxes_json(result.boxes);
   json["regions"] = {{key_of(Region::leading_edge), leading_edge},
                      {key_of(Region::rest), region_json(result.rest, unit)}};
+  if (!result.zones.empty()) json["zones"] = zones_json(result);
   json["tolerance_factor"] = result.tolerance_factor > 0.0 ? Json(result.tolerance_factor / unit) : Json(nullptr);
   json["certificate"] = certificate_json(result.certificate);
   json["further_starts"] = {{"count", result.further_starts}, {"same", result.same_optimum}};
@@ -195,7 +222,7 @@ void write_result_json(const Result& result, const Put& put) {
   std::string head = head_json(result).dump(1);
   head.erase(head.size() - 2);  // the line end and bracket that close the object
   put(head);
-  write_points(result.points, result.mm_per_unit, put);
+  write_points(result, put);
 }
 
 }  // namespace bladefit

@@ -6,11 +6,19 @@
 #include <cmath>
 
 #include "tools/results/words.hpp"
+#include "tools/results/zone_counts.hpp"
 
 namespace bladefit {
 namespace {
 
 constexpr std::size_t kRangesTold = 5, kZonesTold = 2;
+
+/// The nearer of its two limits.
+double nearer_limit(const Result& result, const ResultPoint& point) {
+  if (point.zone == 0 || point.zone > result.zones.size()) return point.tolerance;
+  const ResultZone& zone = result.zones[point.zone - 1U];
+  return std::min(zone.plus, zone.minus);
+}
 
 bool has_tolerance(const ResultPoint& point) { return std::isfinite(point.tolerance); }
 
@@ -26,6 +34,7 @@ Counts counts_of(const Result& result, const ToleranceMap& map) {
   for (const ResultPoint& point : result.points) {
     Verdict verdict;
     verdict.state = point.state;
+    verdict.zone = point.zone;
     verdict.foot.patch = point.patch;
     verdict.foot.u = point.u;
     verdict.foot.v = point.v;
@@ -35,7 +44,7 @@ Counts counts_of(const Result& result, const ToleranceMap& map) {
     if (point.state == PointState::pending) ++counts.pending;
     if (point.state != PointState::undecided) continue;
     ++counts.undecided;
-    if (point.beyond > point.tolerance) ++counts.beyond;
+    if (point.beyond > nearer_limit(result, point)) ++counts.beyond;
   }
   return counts;
 }
@@ -83,11 +92,24 @@ ParameterBox around_zone(const ToleranceMap& map, std::uint32_t k) {
   return around;
 }
 
-std::string zone_text(const ZoneCount& zones, const ToleranceMap& map) {
+/// Zones by name: "tip edge" (0).
+std::string named_zones_text(const Result& result, const ZoneCount& zones, const ToleranceMap& map) {
+  std::string text;
+  for (std::uint32_t k = 0; k < zones.places(); ++k) {
+    if (zones.lacks_points(k))
+      text += fmt::format("{}\"{}\" ({})", text.empty() ? "" : ", ", zone_name(result, k + 1), zones.points(k));
+  }
+  return fmt::format(
+      "a zone has fewer judged points than the {} it needs: {}; probe there, or correct where the zone is",
+      map.least_points, text);
+}
+
+std::string zone_text(const Result& result, const ZoneCount& zones, const ToleranceMap& map) {
+  if (map.zone_count > 0 && !result.zones.empty()) return named_zones_text(result, zones, map);
   std::string text;
   std::size_t missed = 0;
-  for (std::uint32_t k = 0; k < map.box_count; ++k) {
-    if (first_of_zone(map, k) != k || zones.points(k) >= map.least_points) continue;
+  for (std::uint32_t k = 0; k < zones.places(); ++k) {
+    if (!zones.lacks_points(k)) continue;
     if (++missed > kZonesTold) continue;
     const ParameterBox box = around_zone(map, k);
     text += fmt::format("{}patch {} u {:g} to {:g} v {:g} to {:g} ({})", text.empty() ? "" : "; ", box.patch, box.u_min,
@@ -158,7 +180,7 @@ class Texts {
             "blade away; probe them again",
             stream_.refused.size(), stream_.refused.front());
       case Reason::zone_not_probed:
-        return zone_text(counts_.zones, map_);
+        return zone_text(result_, counts_.zones, map_);
       case Reason::pending:
         return fmt::format(
             "{} points are not determined well enough to be judged; probe more points near them and over the whole "

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "tools/results/words.hpp"
+#include "tools/results/zone_lines.hpp"
 
 namespace bladefit {
 namespace {
@@ -251,17 +252,17 @@ std::string point_lines(const Result& result) {
 }
 
 std::string tolerance_lines(const Result& result) {
-  const bool has_edge = !result.boxes.empty();
   const double edge = result.details->leading_edge_tolerance, rest = result.details->rest_tolerance;
+  const bool zoned = !result.zones.empty(), edge_judged = !result.boxes.empty() && std::isfinite(edge);
   const auto allowed = [&](double mm) {
     return std::isfinite(mm) ? fmt::format("{:.3f} {}", result.in_units(mm), result.units) : std::string("none");
   };
-  std::string text =
-      fmt::format("Tolerance: leading edge {}, rest of blade {}\n", has_edge ? allowed(edge) : "none", allowed(rest)) +
-      decision_line(result);
-  if (std::isfinite(edge) && has_edge)
-    text += region_line(result, Region::leading_edge, "leading-edge") + worst_list(result);
-  if (std::isfinite(rest)) text += region_line(result, Region::rest, "other");
+  std::string text = zoned ? zone_lines(result)
+                           : fmt::format("Tolerance: leading edge {}, rest of blade {}\n",
+                                         edge_judged ? allowed(edge) : "none", allowed(rest));
+  text += decision_line(result);
+  if (zoned || edge_judged) text += region_line(result, Region::leading_edge, "leading-edge") + worst_list(result);
+  if (zoned || std::isfinite(rest)) text += region_line(result, Region::rest, "other");
   return text;
 }
 

@@ -30,8 +30,9 @@ struct ResultPoint {
   double u = 0, v = 0;  ///< of the foot, 0..1
   FootKind kind = FootKind::interior;
   Region region = Region::rest;
+  std::uint8_t zone = 0;   ///< of Result::zones, from 1; 0: none of them
   double distance = 0;     ///< > 0: excess material
-  double tolerance = 0;    ///< |distance| allowed; infinity = not judged
+  double tolerance = 0;    ///< |distance| allowed on the side of the distance; infinity = not judged
   double uncertainty = 0;  ///< standard uncertainty of the distance that comes from the pose
   double expanded = 0;     ///< expanded uncertainty of the distance, the probe's part included where it is known
   double before = 0;       ///< distance before the fit, at C = I, t = 0: a best fit hides errors
@@ -40,6 +41,13 @@ struct ResultPoint {
   LeftOut left_out = LeftOut::none;  ///< why it is rejected; none too where a file does not say
   double beyond = 0;                 ///< how far it lies beyond an outer edge of the design, along the surface
   std::optional<Vec3> foot;  ///< on the design; nothing in a session that was read back, whose files do not hold it
+};
+
+/// A part of the blade with tolerances of its own [mm].
+struct ResultZone {
+  std::string name, where;
+  Region region = Region::rest;
+  double plus = 0, minus = 0;  ///< excess and missing material that are allowed; infinity = not judged
 };
 
 /// Distances of the points that count in the fit [mm]. Before: at C = I, t = 0, whatever the start pose.
@@ -115,9 +123,11 @@ struct Result {
   std::optional<Mat6> covariance;  ///< of (w, dt) [rad, mm]; nothing where undetermined
   BladeDistances all;
   RegionDistances leading_edge, rest;
-  std::vector<ParameterBox> boxes;   ///< of the leading-edge region
-  double tolerance_factor = 0;       ///< optimum of the mode; 0 = it has none
-  Certificate certificate;           ///< of that optimum
+  std::vector<ParameterBox> boxes;  ///< of the leading-edge region
+  std::vector<ResultZone> zones;    ///< by falling precedence; with zones the regions' tolerances are their tightest
+  double rest_outside = std::numeric_limits<double>::infinity();  ///< |distance| allowed outside of all zones [mm]
+  double tolerance_factor = 0;                                    ///< optimum of the mode; 0 = it has none
+  Certificate certificate;                                        ///< of that optimum
   std::uint32_t further_starts = 0;  ///< from how many other poses the optimum was sought again,
   std::uint32_t same_optimum = 0;    ///< and how many of these led to the same one
   ShaftAxis axis;                    ///< from which radii are measured

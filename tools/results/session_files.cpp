@@ -16,6 +16,7 @@
 #include "tools/results/json_reader.hpp"
 #include "tools/results/json_writer.hpp"
 #include "tools/results/verdicts_csv.hpp"
+#include "tools/results/words.hpp"
 
 namespace bladefit {
 namespace {
@@ -78,6 +79,14 @@ void check_same_run(const std::string& directory, const Rows<ResultPoint>& resul
       fmt::format("{}: {} ({} points) and {} ({} points) are not of one run; run the session again with the same "
                   "--session",
                   directory, kResultFile, result.size(), kVerdictsFile, points.size()));
+}
+
+/// A point's zone is one of the result.
+void check_zones(const std::string& directory, const Result& result, const Rows<ResultPoint>& points) {
+  const auto known = [&result](const ResultPoint& point) { return point.zone <= result.zones.size(); };
+  if (std::all_of(points.begin(), points.end(), known)) return;
+  throw ToolError(fmt::format("{}: {} names a zone that {} has not; {}", directory, kVerdictsFile, kResultFile,
+                              kDamagedFileRemedy));
 }
 
 /// Sequence of the newest point that has a verdict when the session ends; 0 = none.
@@ -177,6 +186,7 @@ Result read_session(const std::string& directory) {
   Result result = parse_result(folder / kResultFile, text);
   Rows<ResultPoint> points = parse_verdicts(folder / kVerdictsFile, verdicts);
   check_same_run(directory, result.points, points);
+  check_zones(directory, result, points);
   check_up_to_date(directory, journal, points);
   result.name = fs::weakly_canonical(folder).filename().string();
   result.identity = journal.identity;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -15,7 +16,7 @@
 namespace bladefit {
 namespace {
 
-constexpr std::array<std::string_view, 18> kColumns = {"sequence",
+constexpr std::array<std::string_view, 19> kColumns = {"sequence",
                                                        "patch",
                                                        "u",
                                                        "v",
@@ -32,7 +33,10 @@ constexpr std::array<std::string_view, 18> kColumns = {"sequence",
                                                        "expanded_uncertainty_mm",
                                                        "distance_before_mm",
                                                        "left_out",
-                                                       "beyond_mm"};
+                                                       "beyond_mm",
+                                                       "zone"};
+/// The last column is there where a fit has zones: the number of the point's, from 1; 0 = none of them.
+constexpr std::size_t kZone = kColumns.size() - 1;
 
 /// One line of the file, cut at its commas.
 struct Row {
@@ -82,7 +86,7 @@ struct Row {
   }
 };
 
-Row cut(const std::string& path, std::size_t line, std::string_view text) {
+Row cut(const std::string& path, std::size_t line, std::string_view text, std::size_t columns) {
   Row row{path, line};
   std::size_t count = 0;
   while (true) {
@@ -92,7 +96,7 @@ Row cut(const std::string& path, std::size_t line, std::string_view text) {
     if (comma == std::string_view::npos) break;
     text.remove_prefix(comma + 1);
   }
-  if (count != row.cells.size()) row.refuse(fmt::format("{} columns where {} belong", count, row.cells.size()));
+  if (count != columns) row.refuse(fmt::format("{} columns where {} belong", count, columns));
   return row;
 }
 
@@ -114,7 +118,16 @@ ResultPoint point_of(const Row& row) {
   point.before = row.finite(15);
   point.left_out = row.one_of<LeftOut>(16, kLeftOutWords);
   point.beyond = row.bound(17);
+  if (row.cells[kZone].empty()) return point;
+  const std::uint32_t zone = row.whole(kZone);
+  if (zone > ToleranceMap::kMaxZones) row.refuse_cell(kZone, "no number of a zone");
+  point.zone = static_cast<std::uint8_t>(zone);
   return point;
+}
+
+/// The names of the columns, with that of the zone or without.
+std::string heading(std::size_t columns) {
+  return fmt::format("{}", fmt::join(kColumns.begin(), kColumns.begin() + static_cast<std::ptrdiff_t>(columns), ","));
 }
 
 }  // namespace
@@ -126,25 +139,30 @@ std::string verdicts_csv(const Rows<ResultPoint>& points) {
 }
 
 void write_verdicts_csv(const Rows<ResultPoint>& points, const Put& put) {
-  put(fmt::format("{}\n", fmt::join(kColumns, ",")));
+  const bool zoned =
+      std::any_of(points.begin(), points.end(), [](const ResultPoint& point) { return point.zone != 0; });
+  put(heading(zoned ? kColumns.size() : kZone) + "\n");
   for (const ResultPoint& point : points) {
-    put(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", point.sequence, point.patch, point.u,
+    put(fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", point.sequence, point.patch, point.u,
                     point.v, word_of(point.kind), word_of(point.region), point.distance, point.tolerance,
                     point.uncertainty, word_of(point.state), word_of(point.action), point.position[0],
                     point.position[1], point.position[2], point.expanded, point.before, word_of(point.left_out),
                     point.beyond));
+    put(zoned ? fmt::format(",{}\n", point.zone) : "\n");
   }
 }
 
 Rows<ResultPoint> parse_verdicts(const std::string& path, std::string_view text) {
   Rows<ResultPoint> points;
+  const std::size_t columns = text.substr(0, text.find('\n')) == heading(kColumns.size()) ? kColumns.size() : kZone;
   for (std::size_t line = 1; !text.empty() || line == 1; ++line) {
     const std::size_t end = text.find('\n');
-    const Row row = cut(path, line, text.substr(0, end));
+    const Row row = cut(path, line, text.substr(0, end), columns);
     if (end == std::string_view::npos) row.refuse("the line has no end");
     text.remove_prefix(end + 1);
     if (line == 1) {
-      if (row.cells != kColumns) row.refuse("these are not the columns of a verdicts.csv");
+      if (!std::equal(row.cells.begin(), row.cells.begin() + static_cast<std::ptrdiff_t>(columns), kColumns.begin()))
+        row.refuse("these are not the columns of a verdicts.csv");
       continue;
     }
     points.push_back(point_of(row));

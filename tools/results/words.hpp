@@ -12,7 +12,6 @@ namespace bladefit {
 /// The words of result.json, verdicts.csv and the reports, in the order of the enumerations. A fit that is still
 /// tracking when it ends has not converged.
 inline constexpr std::array<std::string_view, 3> kKindWords = {"interior", "edge", "corner"};
-inline constexpr std::array<std::string_view, 2> kRegionWords = {"rest", "leading_edge"};
 inline constexpr std::array<std::string_view, 5> kStateWords = {"pending", "in", "out", "rejected", "undecided"};
 inline constexpr std::array<std::string_view, 3> kActionWords = {"none", "cut", "weld"};
 inline constexpr std::array<std::string_view, 3> kLeftOutWords = {"none", "window", "edge"};
@@ -24,7 +23,6 @@ template <typename Value, std::size_t count>
   return words.at(static_cast<std::size_t>(value));
 }
 [[nodiscard]] constexpr std::string_view word_of(FootKind kind) { return word_in(kKindWords, kind); }
-[[nodiscard]] constexpr std::string_view word_of(Region region) { return word_in(kRegionWords, region); }
 [[nodiscard]] constexpr std::string_view word_of(PointState state) { return word_in(kStateWords, state); }
 [[nodiscard]] constexpr std::string_view word_of(Action action) { return word_in(kActionWords, action); }
 [[nodiscard]] constexpr std::string_view word_of(LeftOut reason) { return word_in(kLeftOutWords, reason); }

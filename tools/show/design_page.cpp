@@ -80,7 +80,7 @@ Json points_json(const PageContent& content, const Places& places) {
   for (const PagePoint& point : content.points) {
     stands.push_back(point.place);
     numbers.push_back(static_cast<std::uint32_t>(point.number));
-    zones.push_back(point.in_zone ? 1 : 0);
+    zones.push_back(static_cast<std::uint8_t>(point.zone != 0 ? point.zone : point.in_zone ? 1 : 0));
     for (const double number :
          {static_cast<double>(point.patch), point.u, point.v, point.distance / content.mm_per_unit})
       feet.push_back(static_cast<float>(number));
@@ -114,7 +114,11 @@ Json content_json(const PageContent& content) {
       {"points", points_json(content, places)}};
   for (const char* list : {"faces", "zones", "lines"}) json[list] = Json::array();
   for (const FaceMesh& face : content.faces) json["faces"].push_back(mesh_json(face, places));
-  for (const FaceMesh& zone : content.zones) json["zones"].push_back(mesh_json(zone, places));
+  for (const FaceMesh& zone : content.zones) {
+    json["zones"].push_back(mesh_json(zone, places));
+    if (zone.zone != 0) json["zones"].back()["zone"] = zone.zone;
+  }
+  if (!content.zone_names.empty()) json["zone_names"] = content.zone_names;
   for (const PageLine& line : content.lines) json["lines"].push_back(line_json(line, places));
   return json;
 }

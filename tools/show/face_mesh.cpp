@@ -70,7 +70,7 @@ std::vector<double> mesh_parameters(const Surface& surface, std::uint32_t patch,
 }
 
 FaceMesh mesh_over(const Surface& surface, std::uint32_t patch, std::vector<double> us, std::vector<double> vs) {
-  FaceMesh mesh{patch, std::move(us), std::move(vs), {}, {}};
+  FaceMesh mesh{patch, std::move(us), std::move(vs), {}, {}, 0};
   mesh.points.reserve(mesh.us.size() * mesh.vs.size());
   mesh.normals.reserve(mesh.us.size() * mesh.vs.size());
   for (const double u : mesh.us) {

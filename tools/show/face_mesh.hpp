@@ -13,6 +13,7 @@ struct FaceMesh {
   std::vector<double> us, vs;  ///< parameters of the lines of the grid, rising
   std::vector<Vec3> points;    ///< [mm]; that at (us[i], vs[j]) at i * vs.size() + j
   std::vector<Vec3> normals;   ///< outward unit normals, in the same order
+  std::uint32_t zone = 0;      ///< of the tolerance map that the part is of, from 1; 0: of none
 };
 
 /// `count` parameters from 0 to 1 along u, or along v: half of them by length, half by how much the patch bends.

@@ -2,6 +2,7 @@
 
 const kColours = { edge: "#3d434a", u: "#0072b2", v: "#00694d", ring: "#8a3b78", ridge: "#b83c00", zone: "#f0b429",
   point: "#ffffff", pointInZone: "#f0b429" };
+const kZoneColours = ["#f0b429", "#d55e00", "#56b4e9", "#009e73", "#cc79a7", "#0072b2", "#e69f00", "#7f7f7f"];
 const kTints = ["#d3dbe4", "#e2d8cb", "#d5e0d0", "#dfd3e2", "#e3e0c4", "#cbdee0"];
 const kWidths = { edge: 1.6, u: 1.1, v: 1.1, ring: 1.7, ridge: 3.4 };
 const kWords = { ridge: "ridges of greatest curvature", ring: "r/R, radius from the axis / tip radius", u: "lines of constant u",
@@ -19,13 +20,16 @@ function grid(mesh) {
     const a = i * v.length + j, b = a + v.length;
     triangles.push(a, b, b + 1, a, b + 1, a + 1);
   }
-  return { patch: mesh.patch, u, v, places: floats(mesh.places), normals: new Int8Array(bytes(mesh.normals)), triangles: new Uint32Array(triangles) };
+  return { patch: mesh.patch, zone: mesh.zone || 0, u, v, places: floats(mesh.places), normals: new Int8Array(bytes(mesh.normals)), triangles: new Uint32Array(triangles) };
 }
 const at = (numbers, k) => [numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]];
 const faces = content.faces.map(grid), zones = content.zones.map(grid);
 const nameOf = (patch) => `patch ${patch}` + (content.names[patch] ? ` (${content.names[patch]})` : "");
 const points = { places: floats(content.points.places), feet: floats(content.points.feet),
-  numbers: new Uint32Array(bytes(content.points.numbers)), zones: Float32Array.from(new Uint8Array(bytes(content.points.zones))) };
+  numbers: new Uint32Array(bytes(content.points.numbers)), zone: new Uint8Array(bytes(content.points.zones)) };
+points.zones = Float32Array.from(points.zone, (zone) => (zone > 0 ? 1 : 0));
+const zoneNames = content.zone_names || [];
+const zoneColour = (zone) => kZoneColours[(zone - 1 + kZoneColours.length) % kZoneColours.length];
 
 // --- what is shown ---
 let reach = 0;
@@ -37,7 +41,7 @@ const view = (() => {
 const meshItem = (mesh, colour, over) => view.add("mesh", { place: [mesh.places, 3], normal: [mesh.normals, 3, view.gl.BYTE] },
   { triangles: mesh.triangles, colour: rgba(colour), over });
 const faceItems = faces.map((mesh, k) => meshItem(mesh, kTints[k % kTints.length], false));
-const zoneItems = zones.map((mesh) => meshItem(mesh, kColours.zone, true));
+const zoneItems = zones.map((mesh) => meshItem(mesh, mesh.zone ? zoneColour(mesh.zone) : kColours.zone, true));
 const lineItems = { edge: [], u: [], v: [], ring: [], ridge: [] };
 for (const kind of Object.keys(lineItems)) for (const line of content.lines) {
   if (line.kind !== kind || !line.ends) continue;
@@ -99,13 +103,14 @@ function entry(items, swatch, colour, words) {
   if (swatch === "key") key.style.borderColor = colour; else key.style.background = colour;
   element("span", { textContent: words }, label);
 }
-entry(zoneItems, "patch", kColours.zone, "leading-edge zone");
+if (zoneNames.length === 0) entry(zoneItems, "patch", kColours.zone, "leading-edge zone");
+zoneNames.forEach((name, k) => entry(zoneItems.filter((item, place) => zones[place].zone === k + 1), "patch", zoneColour(k + 1), `zone ${name}`));
 for (const kind of ["ridge", "ring", "u", "v", "edge"]) entry(lineItems[kind], "key", kColours[kind], kWords[kind]);
 if (pointItem) {
   const inZone = points.zones.reduce((sum, zone) => sum + zone, 0);
   entry([pointItem], "dot", kColours.point, `${points.numbers.length} points as measured, not fitted`);
   if (zones.length) { const label = element("label", {}, legend); element("span", { className: "dot" }, label).style.cssText = `background:${kColours.pointInZone};margin-left:26px`;
-    element("span", { textContent: `of these ${inZone} in the zone` }, label); }
+    element("span", { textContent: `of these ${inZone} in ${zoneNames.length ? "zones" : "the zone"}` }, label); }
 }
 element("h2", { textContent: "Faces" }, legend);
 faces.forEach((face, k) => entry([faceItems[k]], "patch", kTints[k % kTints.length], nameOf(face.patch)));
@@ -155,7 +160,7 @@ function tell(x, y) {
   const place = placeAt(x, y), point = pointAt(x, y);
   if (point && (!place || point.depth > place.depth - 0.02 * reach)) {
     const [patch, u, v, distance] = points.feet.subarray(4 * point.k, 4 * point.k + 4);
-    readout.textContent = `point ${points.numbers[point.k]} · patch ${patch} · u ${u.toFixed(4)} · v ${v.toFixed(4)} · ${distance >= 0 ? "+" : "−"}${Math.abs(distance).toPrecision(3)} ${units} off the design${points.zones[point.k] ? " · leading-edge zone" : ""}`;
+    readout.textContent = `point ${points.numbers[point.k]} · patch ${patch} · u ${u.toFixed(4)} · v ${v.toFixed(4)} · ${distance >= 0 ? "+" : "−"}${Math.abs(distance).toPrecision(3)} ${units} off the design${points.zone[point.k] ? " · " + (zoneNames[points.zone[point.k] - 1] || "leading-edge zone") : ""}`;
   } else if (place) {
     const arm = minus(place.place, content.axis.point), along = dot(arm, axis), radius = Math.hypot(...arm.map((c, d) => c - along * axis[d]));
     const shown = place.place.map((c, d) => (c + content.middle[d]).toPrecision(5));

@@ -1,4 +1,5 @@
 #include "tools/show/page_content.hpp"
+#include "tools/show/zone_mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -44,6 +45,14 @@ void fill_page(const Surface& surface, const ToleranceMap& tolerance, PageConten
     append(content.lines, ridge_lines(blade));
     for (std::size_t k = 0; k < blade.count; ++k)
       content.notes.push_back(ridge_note(blade, k, content.mm_per_unit, content.units));
+  }
+  if (tolerance.zone_count > 0) {
+    for (const FaceMesh& face : content.faces) {
+      std::vector<FaceMesh> parts = mesh_zones(surface, face, tolerance);
+      content.zones.insert(content.zones.end(), std::make_move_iterator(parts.begin()),
+                           std::make_move_iterator(parts.end()));
+    }
+    return;
   }
   for (std::uint32_t k = 0; k < tolerance.box_count; ++k) {
     const ParameterBox& box = tolerance.boxes.at(k);

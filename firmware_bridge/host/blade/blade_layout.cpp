@@ -86,7 +86,7 @@ void BladeLayout::take_places(const Surface& surface, const LocalizerConfig& con
       places_.push_back({.point = point.s,
                          .normal = surface.normal(at, point),
                          .radius = axis_.radius_of(point.s),
-                         .region = region_at(config.tolerance, box.patch, u, v)});
+                         .region = part_at(config.tolerance, box.patch, u, v, point.s).region});
     }
   }
 }

@@ -193,8 +193,8 @@ void Publication::update_fit() {
   state_.smallest_feasible = to_float(report.smallest_tolerance_mm);
   state_.improving = report.improving;
   state_.support = report.certificate.sequence;
-  state_.leading_edge_tolerance = to_float(tolerance_.leading_edge_mm);
-  state_.rest_tolerance = to_float(tolerance_.rest_mm);
+  state_.leading_edge_tolerance = to_float(tightest_of(tolerance_, Region::leading_edge));
+  state_.rest_tolerance = to_float(tightest_of(tolerance_, Region::rest));
   state_.push_latency_us = to_float(figures_.push_p99_us);
 }
 
@@ -221,8 +221,7 @@ void Publication::update_verdict() {
   state_.verdict = verdict.state;
   state_.reasons = reason_bits(verdict.reasons);
   if (link_.link == LinkState::lost) state_.reasons |= kReasonLinkLost;
-  const bool both_judged = std::isfinite(tolerance_.leading_edge_mm) && std::isfinite(tolerance_.rest_mm);
-  if (!both_judged) state_.reasons |= kReasonNoTolerance;
+  if (!judges_everywhere(tolerance_)) state_.reasons |= kReasonNoTolerance;
   if (conclusion.otherwise_count > 0) state_.reasons |= kReasonOtherwise;
   state_.otherwise_count = conclusion.otherwise_count;
   state_.otherwise = conclusion.otherwise;

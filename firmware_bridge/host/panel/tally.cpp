@@ -15,11 +15,15 @@ bool takes_part(const Verdict& verdict, Region region, bool with_pending) {
   return with_pending || verdict.state != PointState::pending;
 }
 
-bool is_farther(const Verdict& verdict, const std::optional<Verdict>& other) {
-  return !other || std::abs(verdict.foot.distance) > std::abs(other->foot.distance);
-}
-
 }  // namespace
+
+/// Where zones have limits of their own, that is farther which is more of its limit.
+bool Tally::is_farther(const Verdict& verdict, const std::optional<Verdict>& other) const {
+  if (!other) return true;
+  const double distance = std::abs(verdict.foot.distance), than = std::abs(other->foot.distance);
+  if (!by_limits_) return distance > than;
+  return distance / verdict.tolerance_mm > than / other->tolerance_mm;
+}
 
 void Tally::accept(const Verdict& verdict) {
   const auto [place, first] = verdicts_.try_emplace(verdict.sequence);

@@ -27,7 +27,8 @@ struct TallyCounts {
 class Tally {
  public:
   /// Both must outlive it.
-  Tally(const ToleranceMap& tolerance, const BladeLayout& layout) : zones_(tolerance), blade_(layout) {}
+  Tally(const ToleranceMap& tolerance, const BladeLayout& layout)
+      : zones_(tolerance), blade_(layout), by_limits_(tolerance.zone_count > 0) {}
 
   /// Takes a first verdict or a revision. Cost: logarithmic.
   void accept(const Verdict& verdict);
@@ -68,6 +69,7 @@ class Tally {
   void count(const Verdict& verdict, int direction);
   void follow_leading_edge(std::uint32_t sequence, bool was_out, bool is_out);
   void follow_worst(const Verdict& verdict);
+  [[nodiscard]] bool is_farther(const Verdict& verdict, const std::optional<Verdict>& other) const;
 
   /// The farthest point of a region so far, with or without pending ones.
   struct Worst {
@@ -86,6 +88,7 @@ class Tally {
   TallyCounts counts_;
   ZoneCount zones_;
   BladeCounts blade_;
+  bool by_limits_;  ///< there are zones
   std::uint64_t times_out_ = 0;
 };
 

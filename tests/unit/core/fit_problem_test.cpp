@@ -141,10 +141,10 @@ TEST(FitProblem, KnowsRegionAndToleranceOfAFoot) {
   Foot foot;
   foot.u = 0.5;
   EXPECT_EQ(problem.region_of(foot), Region::leading_edge);
-  EXPECT_EQ(problem.tolerance_of(foot, Region::leading_edge), 0.02);
+  EXPECT_EQ(problem.tolerance_of(foot, {Region::leading_edge}), 0.02);
   foot.u = 0.1;
   EXPECT_EQ(problem.region_of(foot), Region::rest);
-  EXPECT_EQ(problem.tolerance_of(foot, Region::rest), 0.3);
+  EXPECT_EQ(problem.tolerance_of(foot, {Region::rest}), 0.3);
 }
 
 }  // namespace

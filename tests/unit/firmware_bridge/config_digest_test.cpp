@@ -12,6 +12,8 @@
 #include "core/localizer/config_fields.hpp"
 #include "firmware_bridge/host/journal/config_digest.hpp"
 #include "firmware_bridge/host/journal/journal_reader.hpp"
+#include "firmware_bridge/host/journal/session_settings_file.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace bladefit {
 namespace {
@@ -58,6 +60,41 @@ TEST(ConfigDigest, EachFieldChangesIt) {
   }
   EXPECT_TRUE(names.contains("further_starts"));
   EXPECT_TRUE(digests.insert(config_digest(config, 1)).second) << "points of a refinement";
+}
+
+TEST(ConfigDigest, EachFieldOfAZoneChangesIt) {
+  LocalizerConfig config = config_with_boxes();
+  config.tolerance.zone_count = 2;
+  for (std::uint32_t k = 0; k < 2; ++k) config.tolerance.zones[k] = {Region::rest, false, 10, 20, 0.1, 0.05};
+  std::set<std::uint64_t> digests{config_digest(config, 0), config_digest(config_with_boxes(), 0)};
+  std::size_t fields = 0;
+  for_each_field(config, [&fields](const std::string& name, const auto&) {
+    fields += name.starts_with("tolerance.zone") || name.starts_with("tolerance.axis") ? 1 : 0;
+  });
+  EXPECT_EQ(fields, 1U + 2U * 6U + 6U);
+  for (std::size_t wanted = 0; wanted < fields; ++wanted) {
+    LocalizerConfig changed = config;
+    std::size_t index = 0;
+    for_each_field(changed, [&](const std::string& name, auto& field) {
+      if (!name.starts_with("tolerance.zone") && !name.starts_with("tolerance.axis")) return;
+      if (index++ == wanted) change(field);
+    });
+    EXPECT_TRUE(digests.insert(config_digest(changed, 0)).second) << wanted;
+  }
+  config.tolerance.zones[2].plus_mm = 7;
+  EXPECT_TRUE(digests.contains(config_digest(config, 0))) << "a zone that is not in use plays no part";
+}
+
+TEST(ConfigDigest, ASessionTellsWhichZoneWasAnother) {
+  LocalizerConfig config = config_with_boxes();
+  config.tolerance.zone_count = 2;
+  for (std::uint32_t k = 0; k < 2; ++k) config.tolerance.zones[k] = {Region::rest, true, 10, 20, 0.1, 0.05};
+  const testing::ScratchFolder folder;
+  ASSERT_EQ(write_settings(folder.path(), settings_text(config, 0)).message, "");
+  LocalizerConfig other = config;
+  other.tolerance.zones[1].minus_mm = 0.07;
+  EXPECT_EQ(differing_settings(folder.path(), config_digest(config, 0), settings_text(other, 0)),
+            "tolerance.zones.minus_mm 2 was 0.05 and is 0.07");
 }
 
 TEST(ConfigDigest, BoxesThatAreNotInUsePlayNoPart) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -39,6 +41,35 @@ PageContent page_of(const Surface& surface) {
   map.boxes[map.box_count++] = {0, 0.4, 0.6, 0, 1};
   fill_page(surface, map, content);
   return content;
+}
+
+/// By cells of the grid: a limit by radius is off by some of their width.
+TEST(ShowPage, ZonesOfTheirOwnAreDrawnWhereTheyAre) {
+  const Surface& surface = testing::reference_design("dtmb4119").surface();
+  PageContent content;
+  content.tip_radius_mm = tip_radius_of(surface, content.axis);
+  content.names.assign(surface.image().patches().size(), "FACE");
+  content.zone_names = {"tip edge", "outer blade"};
+  ToleranceMap map;
+  const double low = 0.7 * content.tip_radius_mm;
+  map.boxes[map.box_count++] = {0, 0.4, 0.6, 0, 1, 1};
+  map.zones[0] = {Region::leading_edge, false, low, 1e6, 0.1, 0.05};
+  map.zones[1] = {Region::rest, true, low, 1e6, 0.3, 0.2};
+  map.zone_count = 2;
+  fill_page(surface, map, content);
+  std::array<std::size_t, 2> parts{};
+  for (const FaceMesh& part : content.zones) {
+    ASSERT_TRUE(part.zone == 1 || part.zone == 2);
+    ++parts.at(part.zone - 1);
+    const bool edge = part.us.front() >= 0.4 && part.us.back() <= 0.6;
+    const bool beside = part.us.back() <= 0.4 || part.us.front() >= 0.6;
+    EXPECT_TRUE(part.zone == 1 ? edge : beside) << part.us.front() << " to " << part.us.back();
+    for (const Vec3& point : part.points) EXPECT_GT(content.axis.radius_of(point), 0.96 * low);
+  }
+  EXPECT_GT(parts[0], 0U);
+  EXPECT_GT(parts[1], 1U) << "on both sides of the edge";
+  const std::string page = design_page(content);
+  EXPECT_NE(page.find("\"zone_names\":[\"tip edge\",\"outer blade\"]"), std::string::npos);
 }
 
 TEST(ShowPage, LinesAreWhereTheySay) {
