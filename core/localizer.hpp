@@ -155,7 +155,7 @@ class Localizer {
   [[nodiscard]] Status stage(const ProbePoint& point);
 
   /// The same with a first foot found by Newton's method from `start` alone, so it may be another local minimum than
-  /// the nearest: it is tracked as it is until the last sweep of refine() searches every foot globally. It is searched
+  /// the nearest: it is tracked as it is until the last sweep of refine() proves every foot. It is searched
   /// at once where it ends on an edge or does not face the probe. With a window every point is searched for that.
   /// Statuses as stage(), and out_of_range where `start` is not a place of the design.
   [[nodiscard]] Status stage_from(const ProbePoint& point, const SurfacePlace& start);

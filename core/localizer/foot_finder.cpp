@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/geometry/nearest/held_sides.hpp"
+#include "core/geometry/nearest/reach.hpp"
 
 namespace bladefit {
 
@@ -99,11 +100,12 @@ void FootFinder::examine(const StoredPoint& point, const Pose& pose, Search sear
   const bool doubtful = !tracked || left_trim(point) || m.projection.fixed_u || m.projection.fixed_v ||
                         m.projection.at_pole || !faces_probe(surface, m.projection, query.approach);
   // Distances change by no more than the point moves, so within half its margin no local minimum that was there can
-  // have come nearer than the tracked foot. A newborn one could: refine() ends with a search of every foot.
+  // have come nearer than the tracked foot. A newborn one could: refine() ends with a proof of every foot.
   const bool far = search == Search::past_margin && 2.0 * (m.r - point.ranked_at).norm() >= point.runner_up.margin;
   const bool known = !doubtful && (!far || weigh_runner_up(point, query, m));
   if (known && search != Search::always) return;
   if (search == Search::past_margin) query.margin = tuning::kSearchMargin * problem_.frame.length;
+  if (!doubtful && proven_without_search(query.margin, m)) return;
   const GlobalProjection global = project_global(surface, query, &m.projection);
   // Newton's method does not end on a crease of the surface: there it is the foot of before that is found again.
   const Vec3& before = tracked ? m.projection.at.s : point.foot.point;
@@ -112,6 +114,15 @@ void FootFinder::examine(const StoredPoint& point, const Pose& pose, Search sear
   m.searched = m.ranked = true;
   m.runner_up = global.runner_up;
   m.proven = global.proven;
+}
+
+/// What a search would find, with its margin to other local minima, is told by the reach of the foot.
+bool FootFinder::proven_without_search(double margin, Measurement& m) const {
+  const ReachProof proof = proof_by_reach(problem_.surface, m.projection);
+  if (!proof.nearest || (margin > 0.0 && proof.margin < tuning::kMarginByReach * margin)) return false;
+  m.ranked = true;
+  m.runner_up = nothing_within(margin);
+  return true;
 }
 
 /// Its foot was at the end of a face with trim loops: these do not hold what is tracked from there.

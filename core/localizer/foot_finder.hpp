@@ -8,13 +8,13 @@
 
 namespace bladefit {
 
-/// When the foot of a point is searched globally, and not only tracked from where it was.
+/// When the foot of a point is proven, by its reach or else by a global search, and not only tracked from where it was.
 enum class Search : std::uint8_t {
   if_doubtful,  ///< where tracking ends on an edge, on no minimum or averted from the probe
   past_margin,  ///< there too, and where the point has moved so far that its runner-up may be nearer; finds a new
                 ///< margin
   keep,         ///< only where tracking ends on no minimum or at a seam: the foot stays on its sheet
-  always
+  always        ///< it is proven: searched where its reach does not prove it
 };
 
 /// Where the foot of a point is sought from, and how.
@@ -57,6 +57,7 @@ class FootFinder {
                                          const LaneBlock& block, std::uint32_t lane) const;
   void examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const;
   [[nodiscard]] bool weigh_runner_up(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const;
+  [[nodiscard]] bool proven_without_search(double margin, Measurement& m) const;
   [[nodiscard]] bool left_trim(const StoredPoint& point) const;
   [[nodiscard]] bool same_foot(const Vec3& a, const Vec3& b) const;
 

@@ -23,6 +23,8 @@ inline constexpr std::uint32_t kEvictionLooks = 64;
 // Feet
 /// [L] Other local minima are looked for up to this much farther, so that a foot can be tracked for half as long.
 inline constexpr double kSearchMargin = 2e-3;
+/// Where the reach of a foot proves so many times that margin, a search would find nothing within it either.
+inline constexpr double kMarginByReach = 1.01;
 /// [L] Feet this near to each other are one.
 inline constexpr double kSameFoot = 1e-8;
 

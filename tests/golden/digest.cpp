@@ -62,13 +62,14 @@ void add(Digest& digest, const RegionReport& r) {
   digest.add(r.worst_sequence);
 }
 
+/// All but the number of searches, which is a cost and no answer.
 void add(Digest& digest, const FitReport& r) {
   digest.add(r.status);
   digest.add_all(r.pose.rotation);
   digest.add_all(r.pose.translation);
   digest.add_all(r.covariance);
   for (const std::uint32_t count : {r.determined, r.points, r.fitted, r.rejected, r.further_starts, r.same_optimum,
-                                    r.unproven, r.searches, r.revision, r.certificate.count}) {
+                                    r.unproven, r.revision, r.certificate.count}) {
     digest.add(count);
   }
   for (const double number : {r.rms_mm, r.sigma_mm, r.loss_scale_mm, r.smallest_eigenvalue, r.gradient, r.mode_value_mm,

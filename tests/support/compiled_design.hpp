@@ -35,4 +35,14 @@ class CompiledDesign {
   Surface surface_;
 };
 
+/// The same design with nothing known of how far its spans reach: every foot is proven by a search.
+inline CompiledDesign without_reach(const CompiledDesign& design) {
+  std::vector<std::byte> bytes = design.bytes();
+  auto* const header = reinterpret_cast<ImageHeader*>(bytes.data());
+  auto* const spans = reinterpret_cast<ImageSpan*>(bytes.data() + header->spans_offset);
+  for (std::uint32_t k = 0; k < header->span_count; ++k) spans[k].reach[0] = spans[k].reach[1] = spans[k].apart = 0.0F;
+  header->crc32 = image_crc(bytes);
+  return CompiledDesign(std::move(bytes));
+}
+
 }  // namespace bladefit::testing

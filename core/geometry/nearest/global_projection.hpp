@@ -22,6 +22,9 @@ struct RunnerUp {
   SurfacePlace place;  ///< of the runner-up, where margin < margin_to_third
 };
 
+/// What a search with this margin [mm] says where it meets no other local minimum within it.
+[[nodiscard]] RunnerUp nothing_within(double margin);
+
 struct GlobalProjection {
   Projection nearest;
   bool proven = false;  ///< false: the cap on pieces was reached; `nearest` is the best found

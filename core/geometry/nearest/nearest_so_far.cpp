@@ -73,6 +73,8 @@ bool NearestSoFar::same(const Vec3& a, const Vec3& b) const {
   return (a - b).norm() <= kSameFoot * surface_.half_diagonal();
 }
 
+RunnerUp nothing_within(double margin) { return {margin, kShareOfTwo * margin, {}}; }
+
 GlobalProjection NearestSoFar::result(bool exhausted, std::uint32_t pieces) const {
   GlobalProjection out;
   out.nearest = !found_ && has_resort_ ? resort_ : nearest_;

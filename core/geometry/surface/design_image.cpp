@@ -68,6 +68,13 @@ bool cone_valid(const ImageSpan& s) {
   return s.cone_cosine == -1.0 || std::abs(n2 - 1.0) < 1e-9;
 }
 
+/// That they hold is the compiler's promise, as with the bounds of leaves.
+bool reach_valid(const ImageSpan& s) {
+  const auto length = [](float x) { return std::isfinite(x) && x >= 0.0F; };
+  return length(s.reach[0]) && length(s.reach[1]) && length(s.apart) && s.inset[kLowU] + s.inset[kHighU] < 256 &&
+         s.inset[kLowV] + s.inset[kHighV] < 256;
+}
+
 /// Every number finite and every range the right way round. That the bounds hold is the compiler's promise, kept by the
 /// CRC: it cannot be checked at this cost.
 bool bounds_valid(const ImageBounds& b) {
@@ -136,7 +143,8 @@ bool spans_valid(const DesignImage& image) {
     if (s.iu >= p.spans_u || s.iv >= p.spans_v ||
         i != p.first_span + static_cast<std::uint64_t>(s.iu) * p.spans_v + s.iv)
       return false;
-    if (!cone_valid(s) || !ends_valid(s, p) || !net_valid(image, s, p) || !taylor_valid(image, s, p)) return false;
+    if (!cone_valid(s) || !reach_valid(s) || !ends_valid(s, p) || !net_valid(image, s, p) || !taylor_valid(image, s, p))
+      return false;
   }
   return true;
 }

@@ -15,7 +15,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 8;
+inline constexpr std::uint32_t kImageVersion = 9;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -62,7 +62,17 @@ struct ImageSpan {
   std::uint64_t first_coefficient;
   double cone_axis[3];  ///< every outward normal of the span is within the cone about this unit axis
   double cone_cosine;   ///< cosine of the half angle; -1 where no bound is known
+  /// No ball of this radius that touches the design from one side in this span, at whatever place but for `inset`,
+  /// holds another point of the design: [0] on the side of Su x Sv, [1] on the other one [mm]. 0: nothing is known.
+  float reach[2];
+  /// From a foot there to a point that is nearer to it than the reach there is no other local minimum of the distance
+  /// so near to the foot [mm]. 0: nothing is known.
+  float apart;
+  std::uint8_t inset[4];  ///< that is not told of places so near to these sides [kInsetUnit]
 };
+
+/// In spans, of ImageSpan::inset.
+inline constexpr double kInsetUnit = 1.0 / 256.0;
 
 /// Bounds of a rectangle of a span about its middle c: what lets most of them be judged without looking at control
 /// points. Vectors are in the frame of `axis`, whose first row is the normal in the middle.
@@ -130,7 +140,7 @@ struct ImageNode {
   std::uint32_t child[4];
 };
 
-static_assert(sizeof(ImageHeader) == 216 && sizeof(ImagePatch) == 48 && sizeof(ImageSpan) == 88 &&
+static_assert(sizeof(ImageHeader) == 216 && sizeof(ImagePatch) == 48 && sizeof(ImageSpan) == 104 &&
               sizeof(ImageBounds) == 616 && sizeof(ImageLeaf) == 656 && sizeof(ImageNode) == 112 &&
               sizeof(ImageTrim) == 80 && sizeof(ImageTrimRun) == 16 && sizeof(ImageSlab) == 8);
 

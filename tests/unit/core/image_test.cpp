@@ -147,8 +147,11 @@ TEST(DesignImage, NamesWhatIsWrong) {
   bytes[0] = std::byte{'X'};
   EXPECT_EQ(status_of(bytes), Status::bad_magic);
   bytes = small_image();
-  bytes[offsetof(ImageHeader, version)] = std::byte{9};
-  EXPECT_EQ(status_of(bytes), Status::bad_version);
+  for (const std::uint32_t version : {kImageVersion - 1, kImageVersion + 1}) {
+    std::memcpy(&bytes[offsetof(ImageHeader, version)], &version, sizeof version);
+    EXPECT_EQ(status_of(bytes), Status::bad_version);
+  }
+  bytes = small_image();
   bytes = small_image();
   std::reverse(bytes.begin() + offsetof(ImageHeader, version), bytes.begin() + offsetof(ImageHeader, version) + 4);
   EXPECT_EQ(status_of(bytes), Status::bad_byte_order);
@@ -215,6 +218,11 @@ TEST(DesignImage, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([](Parts p) { p.span()->first_coefficient = ~std::uint64_t{0}; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->first_coefficient = p.header()->coefficient_count - 4; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->cone_cosine = NAN; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->reach[0] = NAN; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->reach[1] = INFINITY; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->reach[1] = -1.0F; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->apart = -1e-9F; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->inset[0] = p.span()->inset[1] = 128; }));
 }
 
 TEST(DesignImage, ContradictoryLeavesAndNodesAreRefused) {

@@ -106,7 +106,7 @@ TEST_F(FirstFeet, CurvesLeadToTheNearestFeet) {
   EXPECT_EQ(stage_points(*tracked, design_.surface(), config_, points_, FootStarts::curves, "points"), 10U);
   EXPECT_EQ(stage_points(*searched, design_.surface(), config_, points_, FootStarts::searched, "points"), 0U);
   EXPECT_EQ(tracked->fit().searches, 0U);
-  EXPECT_EQ(searched->fit().searches, points_.size());
+  EXPECT_LT(searched->fit().searches, points_.size() / 10) << "the others were proven by their reach";
   for (const ProbePoint& point : points_) {
     Verdict a, b;
     ASSERT_EQ(tracked->verdict_of(point.sequence, a), Status::ok);
@@ -129,10 +129,12 @@ TEST_F(FirstFeet, StartsOffTheDesignAreRefused) {
   EXPECT_EQ(localizer->stage_from(points_[0], {0, 0.0, 0.0}), Status::duplicate);
 }
 
-/// Feet that were only tracked so far are all searched in the last sweep.
+/// Feet that were only tracked so far are all proven in the last sweep: searched, where nothing is known of their
+/// reach.
 TEST_F(FirstFeet, RefinementSearchesEveryFoot) {
-  OwnedLocalizer localizer(design_.image(), config_);
-  ASSERT_EQ(stage_points(*localizer, design_.surface(), config_, points_, FootStarts::neighbour, "points"), 10U);
+  const CompiledDesign design = without_reach(design_);
+  OwnedLocalizer localizer(design.image(), config_);
+  ASSERT_EQ(stage_points(*localizer, design.surface(), config_, points_, FootStarts::neighbour, "points"), 10U);
   localizer->conclude();
   EXPECT_EQ(refine_fully(*localizer), Status::ok);
   EXPECT_EQ(localizer->fit().status, FitStatus::converged);

@@ -8,6 +8,7 @@
 
 #include "tools/design/image/creases.hpp"
 #include "tools/design/image/joints.hpp"
+#include "tools/design/image/reach.hpp"
 #include "tools/design/image/span_bounding.hpp"
 #include "tools/design/image/tree_builder.hpp"
 #include "tools/design/image/trim_pieces.hpp"
@@ -199,6 +200,8 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   copy_array(parts.trims.slab_trims, header.slab_trims_offset, image);
   seal(image);
   mark_joints(image);
+  seal(image);
+  mark_reach(image);
   seal(image);
   return image;
 }

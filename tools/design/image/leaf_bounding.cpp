@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/geometry/surface/surface.hpp"
-#include "tools/design/image/interval.hpp"
+#include "tools/design/image/framed_piece.hpp"
 
 namespace bladefit {
 namespace {
@@ -14,105 +14,10 @@ constexpr int kPieces = 2;
 /// Widening against rounding, of the size of what is bounded.
 constexpr double kWidening = 1e-12;
 
-/// Ranges of a homogeneous quantity over a piece.
-struct HomogeneousRange {
-  IntervalVector place;
-  Interval weight;
-};
-
-/// S - origin and its derivatives s, t, ss, st, tt over a piece.
-struct PieceRange {
-  IntervalVector place;
-  std::array<IntervalVector, 5> derivative;
-};
-
 /// Those of the bounds: s, t, aa, ab, bb, across s, across t.
 constexpr std::size_t kDerivatives = 7;
 template <class Value>
 using Derivatives = std::array<Value, kDerivatives>;
-
-constexpr Interval kNothing{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-
-/// A piece of a span: its net in the frame of the leaf, moved to an origin of its own.
-class Piece {
- public:
-  Piece(const BezierSpan& span, const LocalRect& rect, const ImageBounds& leaf) {
-    restrict_net(span.net, span.degree_u, span.degree_v, rect, net_);
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(&leaf.axis[0][0]);
-    const Homogeneous& corner = net_.at(net_.degree_u / 2, net_.degree_v / 2);
-    const Vec3 origin = corner.head<3>() / corner[3];
-    for (std::uint32_t k = 0; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k) {
-      const Vec3 arm = Vec3(net_.points[k].head<3>()) - net_.points[k][3] * origin;
-      net_.points[k].head<3>() = axes * arm;
-    }
-    origin_ = axes * (origin - Vec3(leaf.middle));
-  }
-
-  /// Control values of the derivative of order (along_u, along_v): differences, times the factor of the degrees.
-  [[nodiscard]] HomogeneousRange derivative(std::uint32_t along_u, std::uint32_t along_v) const {
-    if (along_u > net_.degree_u || along_v > net_.degree_v) return HomogeneousRange{};
-    BezierNet d = net_;
-    double factor = 1.0;
-    for (std::uint32_t k = 0; k < along_u; ++k) {
-      factor *= (net_.degree_u - k) * static_cast<double>(kPieces);
-      for (std::uint32_t i = 0; i < net_.degree_u - k; ++i) {
-        for (std::uint32_t j = 0; j <= net_.degree_v; ++j) d.at(i, j) = d.at(i + 1, j) - Homogeneous(d.at(i, j));
-      }
-    }
-    for (std::uint32_t k = 0; k < along_v; ++k) {
-      factor *= (net_.degree_v - k) * static_cast<double>(kPieces);
-      for (std::uint32_t i = 0; i <= net_.degree_u - along_u; ++i) {
-        for (std::uint32_t j = 0; j < net_.degree_v - k; ++j) d.at(i, j) = d.at(i, j + 1) - Homogeneous(d.at(i, j));
-      }
-    }
-    Homogeneous low = Homogeneous::Constant(kNothing.low), high = Homogeneous::Constant(kNothing.high);
-    for (std::uint32_t i = 0; i <= net_.degree_u - along_u; ++i) {
-      for (std::uint32_t j = 0; j <= net_.degree_v - along_v; ++j) {
-        low = low.min(d.at(i, j));
-        high = high.max(d.at(i, j));
-      }
-    }
-    low *= factor;
-    high *= factor;
-    return {{Interval{low[0], high[0]}, {low[1], high[1]}, {low[2], high[2]}}, {low[3], high[3]}};
-  }
-
-  /// (S - origin) . direction: between those of the control points.
-  [[nodiscard]] Interval extent(const Vec3& direction) const {
-    Interval range = kNothing;
-    for (std::uint32_t k = 0; k < (net_.degree_u + 1) * (net_.degree_v + 1); ++k) {
-      const double along = direction.dot(Vec3(net_.points[k].head<3>())) / net_.points[k][3];
-      range.include({along, along});
-    }
-    return range;
-  }
-
-  [[nodiscard]] const Vec3& origin() const { return origin_; }
-
- private:
-  BezierNet net_;
-  Vec3 origin_;  ///< from the middle of the leaf
-};
-
-/// Quotient rule on A / w with intervals; small because A is taken about the piece's own origin.
-PieceRange range_of(const Piece& piece) {
-  const HomogeneousRange value = piece.derivative(0, 0), s = piece.derivative(1, 0), t = piece.derivative(0, 1),
-                         ss = piece.derivative(2, 0), st = piece.derivative(1, 1), tt = piece.derivative(0, 2);
-  const Interval over = inverse(value.weight);
-  PieceRange out;
-  out.place = {piece.extent(Vec3::UnitX()), piece.extent(Vec3::UnitY()), piece.extent(Vec3::UnitZ())};
-  if (value.weight.low == value.weight.high) {
-    out.derivative = {over * s.place, over * t.place, over * ss.place, over * st.place, over * tt.place};
-    return out;
-  }
-  out.derivative[0] = over * (s.place - s.weight * out.place);
-  out.derivative[1] = over * (t.place - t.weight * out.place);
-  const IntervalVector &d_s = out.derivative[0], &d_t = out.derivative[1];
-  out.derivative[2] = over * (ss.place - (2.0 * s.weight) * d_s - ss.weight * out.place);
-  out.derivative[3] = over * (st.place - s.weight * d_t - t.weight * d_s - st.weight * out.place);
-  out.derivative[4] = over * (tt.place - (2.0 * t.weight) * d_t - tt.weight * out.place);
-  return out;
-}
 
 /// The unit vector across the sides of constant s in the middle: along_s * Ss + along_t * St. That across those of
 /// constant t is Sb.
@@ -216,7 +121,7 @@ IntervalVector turned(const IntervalVector& derivative, const Vec3& middle) {
 
 /// The derivatives of 1/2 |S - c|^2 over a piece, whose derivatives of S are `range`. (S - c) . D is that with D as in
 /// the middle, which the control points bound well, and the little that D differs.
-Derivatives<Interval> self_range(const Piece& piece, const ImageBounds& bounds, const IntervalVector& arm,
+Derivatives<Interval> self_range(const FramedPiece& piece, const ImageBounds& bounds, const IntervalVector& arm,
                                  const Derivatives<IntervalVector>& range) {
   Derivatives<Interval> self;
   for (std::size_t d = 0; d < kDerivatives; ++d) {
@@ -228,8 +133,8 @@ Derivatives<Interval> self_range(const Piece& piece, const ImageBounds& bounds, 
   return self;
 }
 
-void include_piece(const Piece& piece, const AcrossS& across, ImageBounds& bounds) {
-  PieceRange range = range_of(piece);
+void include_piece(const FramedPiece& piece, const AcrossS& across, ImageBounds& bounds) {
+  PieceRange range = piece.range();
   for (std::size_t k = 0; k < 3; ++k) {
     range.place[k] = range.place[k] + piece.origin()[static_cast<Eigen::Index>(k)];
     bounds.low[k] = std::min(bounds.low[k], range.place[k].low);
@@ -270,9 +175,12 @@ ImageBounds leaf_bounds(const BezierSpan& span, const LocalRect& rect) {
   ImageBounds bounds;
   const SurfacePoint middle = scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min);
   set_middle(middle, bounds);
+  const PieceFrame frame{Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&bounds.axis[0][0]),
+                         Vec3(bounds.middle)};
   const auto piece = [&](int i, int j) {
     const double d = 1.0 / kPieces;
-    return Piece(span, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)}, bounds);
+    return FramedPiece(span, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)}, frame,
+                       {kPieces, kPieces});
   };
   for (int k = 0; k < kPieces * kPieces; ++k) include_piece(piece(k / kPieces, k % kPieces), AcrossS(middle), bounds);
   double size = Vec3(bounds.middle).norm();
