@@ -33,14 +33,14 @@ const StudyCase& zoned_blade() {
   return study;
 }
 
-FitSettings settings_of(const std::string& toml) {
+FitSettings zone_settings(const std::string& toml) {
   const testing::ScratchFolder folder;
   FitSettings settings;
   EXPECT_EQ(load_fit(folder.write("fit.toml", toml), settings).message, "");
   return settings;
 }
 
-FitPlan planned(const std::string& toml) { return plan_fit(settings_of(toml), zoned_blade().design); }
+FitPlan planned(const std::string& toml) { return plan_fit(zone_settings(toml), zoned_blade().design); }
 
 TEST(ZonePlan, TurnsTablesToZonesOfTheMap) {
   const FitPlan plan = planned(kTwoZones);
