@@ -18,6 +18,7 @@
 #include "tools/commands/design_notes.hpp"
 #include "tools/design/blade_choice.hpp"
 #include "tools/design/image/c_array.hpp"
+#include "tools/design/image/reach.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
 #include "tools/files/output_file.hpp"
@@ -186,7 +187,8 @@ void compile(const CompileOptions& options) {
   if (options.output.empty()) throw ToolError("compile: no output is given; name it with -o, or say --list");
   const DesignChoice choice = choice_of(options);
   check_outputs(options);
-  const LoadedDesign design = load_design(paths_of(options), choice);
+  LoadedDesign design = load_design(paths_of(options), choice);
+  mark_reach(design.image);
   const DesignImage image = open_compiled(options, design);
   write_outputs(options, design.image);
   print_summary(options, design, image);

@@ -9,6 +9,7 @@
 #include "tests/support/reference_design.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/design/image/image_writer.hpp"
+#include "tools/design/image/reach.hpp"
 #include "tools/design/read_design.hpp"
 
 namespace bladefit::testing {
@@ -30,7 +31,8 @@ std::vector<std::byte> image_of(const std::string& name) {
 
 int main(int count, char** words) try {
   if (count != 3) return 2;
-  const std::vector<std::byte> image = bladefit::testing::image_of(words[1]);
+  std::vector<std::byte> image = bladefit::testing::image_of(words[1]);
+  bladefit::mark_reach(image);
   bladefit::testing::write_whole(words[2], {reinterpret_cast<const char*>(image.data()), image.size()});
   return 0;
 } catch (const std::exception& error) {

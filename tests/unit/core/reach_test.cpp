@@ -8,9 +8,17 @@
 #include "tests/support/made_surface.hpp"
 #include "tests/support/touching_balls.hpp"
 #include "tools/design/image/image_writer.hpp"
+#include "tools/design/image/reach.hpp"
 
 namespace bladefit::testing {
 namespace {
+
+/// The image of surfaces in mm, outward where the normal looks, with its reach.
+std::vector<std::byte> reaching(const std::vector<NurbsSurface>& surfaces) {
+  std::vector<std::byte> image = write_image(surfaces, DesignUnit::mm, 1);
+  mark_reach(image);
+  return image;
+}
 
 class Reach : public ::testing::TestWithParam<std::string> {};
 
@@ -33,7 +41,7 @@ RC_GTEST_PROP(ReachOfRandomSheets, BallsWithinItHoldNoOtherPoint, ()) {
   const int degree_u = *rc::gen::inRange(1, 6), degree_v = *rc::gen::inRange(1, 6);
   const auto seed = *rc::gen::noShrink(rc::gen::arbitrary<std::uint32_t>());
   const DirectionPlan plan_u{degree_u, *rc::gen::inRange(1, 4), true, false, creased}, plan_v{degree_v, 2};
-  const CompiledDesign design(write_image({random_surface(plan_u, plan_v, rational, seed)}, DesignUnit::mm, 1));
+  const CompiledDesign design(reaching({random_surface(plan_u, plan_v, rational, seed)}));
   const TouchingBalls balls = touching_balls(design.surface(), 200, seed);
   RC_LOG() << balls.first;
   RC_ASSERT(balls.held == 0U);
@@ -46,7 +54,7 @@ TEST(ReachOfSheets, IsNoMoreThanHalfTheWayToTheNext) {
   for (Eigen::Vector3d& point : low.control_points) point[2] = 0.0;
   NurbsSurface high = low;
   for (Eigen::Vector3d& point : high.control_points) point[2] = 4.0;
-  const CompiledDesign design(write_image({low, high}, DesignUnit::mm, 1));
+  const CompiledDesign design(reaching({low, high}));
   for (const ImageSpan& span : design.image().spans()) {
     const std::size_t between = span.patch == 0 ? 0 : 1;
     EXPECT_LE(span.reach[between], 2.0F);

@@ -8,7 +8,6 @@
 
 #include "tools/design/image/creases.hpp"
 #include "tools/design/image/joints.hpp"
-#include "tools/design/image/reach.hpp"
 #include "tools/design/image/span_bounding.hpp"
 #include "tools/design/image/tree_builder.hpp"
 #include "tools/design/image/trim_pieces.hpp"
@@ -159,12 +158,12 @@ void copy_array(const std::vector<Element>& array, std::uint64_t offset, std::ve
   if (!array.empty()) std::memcpy(image.data() + offset, array.data(), array.size() * sizeof(Element));
 }
 
-void seal(std::vector<std::byte>& image) {
+}  // namespace
+
+void seal_image(std::vector<std::byte>& image) {
   const std::uint32_t crc = image_crc(image);
   std::memcpy(image.data() + offsetof(ImageHeader, crc32), &crc, sizeof crc);
 }
-
-}  // namespace
 
 std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward,
                                    ImageSize size) {
@@ -198,11 +197,9 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
   copy_array(parts.trims.runs, header.runs_offset, image);
   copy_array(parts.trims.slabs, header.slabs_offset, image);
   copy_array(parts.trims.slab_trims, header.slab_trims_offset, image);
-  seal(image);
+  seal_image(image);
   mark_joints(image);
-  seal(image);
-  mark_reach(image);
-  seal(image);
+  seal_image(image);
   return image;
 }
 
@@ -220,9 +217,9 @@ void set_outward(std::vector<std::byte>& image, int outward) {
     std::fill_n(span.joints, 4, 0U);  // a ridge becomes a valley
     std::memcpy(place, &span, sizeof span);
   }
-  seal(image);
+  seal_image(image);
   mark_joints(image);
-  seal(image);
+  seal_image(image);
 }
 
 }  // namespace bladefit

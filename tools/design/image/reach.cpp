@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "tools/design/image/image_writer.hpp"
 #include "tools/design/image/span_reach.hpp"
 
 namespace bladefit {
@@ -45,6 +46,7 @@ void mark_reach(std::vector<std::byte>& image) {
   work();
   for (std::future<void>& other : others) other.get();
   std::memcpy(image.data() + opened.header().spans_offset, spans.data(), spans.size() * sizeof(ImageSpan));
+  seal_image(image);
 }
 
 }  // namespace bladefit
