@@ -16,7 +16,8 @@ std::string broken_words(const std::string& refusal) {
   if (refusal.size() > kLongest) return "the refusal is " + std::to_string(refusal.size()) + " characters long";
   const auto lines = std::ranges::count(refusal, '\n');
   if (lines > 0) return "the refusal has several lines";
-  for (const std::string_view word : {"std::", "basic_string", "vector::", "stoi:", "stoi(", "stod:", "stod(", "what()", "exception"}) {
+  for (const std::string_view word :
+       {"std::", "basic_string", "vector::", "stoi:", "stoi(", "stod:", "stod(", "what()", "exception"}) {
     if (refusal.find(word) != std::string::npos) return "the refusal speaks of " + std::string(word);
   }
   return "";

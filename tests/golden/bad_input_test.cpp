@@ -121,6 +121,22 @@ const std::vector<BadInput>& bad_settings() {
        3,
        "/dev/full: cannot be written"},
       {"an image on a full disk", {}, {"compile", "DESIGN", "-o", "/dev/full"}, 3, "cannot be written"},
+      {"a subset that names no row",
+       {{"p.csv", kSheetPoints}, {"s.txt", "99999999999999999999999\n"}},
+       localize("DIR/p.csv", {"--subset", "DIR/s.txt"}),
+       2,
+       "s.txt:1: "},
+      {"sections in another unit than --units",
+       {{"c.csv", "section,x [mm],y [mm],z [mm]\n0,1,2,3\n"}},
+       {"loft", "DIR/c.csv", "-o", "DIR/o.igs", "--units", "in"},
+       2,
+       "c.csv: the file gives its lengths in mm, but --units says in"},
+  };
+  return rows;
+}
+
+const std::vector<BadInput>& bad_start_pairs() {
+  static const std::vector<BadInput> rows = {
       {"start pairs without a column",
        {{"p.csv", kSheetPoints}, {"a.csv", "x,y,z\n1,2,3\n"}},
        localize("DIR/p.csv", {"--start", "DIR/a.csv"}),
@@ -139,16 +155,6 @@ const std::vector<BadInput>& bad_settings() {
        localize("DIR/p.csv", {"--start", "DIR/a.csv"}),
        2,
        "what remains: line 2 .*, hub .*, tip "},
-      {"a subset that names no row",
-       {{"p.csv", kSheetPoints}, {"s.txt", "99999999999999999999999\n"}},
-       localize("DIR/p.csv", {"--subset", "DIR/s.txt"}),
-       2,
-       "s.txt:1: "},
-      {"sections in another unit than --units",
-       {{"c.csv", "section,x [mm],y [mm],z [mm]\n0,1,2,3\n"}},
-       {"loft", "DIR/c.csv", "-o", "DIR/o.igs", "--units", "in"},
-       2,
-       "c.csv: the file gives its lengths in mm, but --units says in"},
   };
   return rows;
 }
@@ -156,6 +162,8 @@ const std::vector<BadInput>& bad_settings() {
 TEST_F(BadInputs, OfPointsAreRefusedInOneLineEach) { expect_refused(bad_points()); }
 
 TEST_F(BadInputs, OfSettingsAndOutputsAreRefusedInOneLineEach) { expect_refused(bad_settings()); }
+
+TEST_F(BadInputs, OfStartPairsAreRefusedInOneLineEach) { expect_refused(bad_start_pairs()); }
 
 /// Of a size that is never read: the file has a hole in place of its content.
 TEST_F(BadInputs, FilesOfAGigabyteAreRefusedByTheirSize) {

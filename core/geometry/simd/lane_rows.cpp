@@ -26,7 +26,8 @@ BLADEFIT_INLINE void surface_bend(const LaneWalk& walk, const Four3& n, const Fo
                                   Four (&bend)[21]) {
   const Four3 s_u = load3(walk.s_u), s_v = load3(walk.s_v);
   const Four g_uu = eigen_dot(s_u, s_u), g_uv = eigen_dot(s_u, s_v), g_vv = eigen_dot(s_v, s_v);
-  const Four b_uu = eigen_dot(n, load3(walk.s_uu)), b_uv = eigen_dot(n, load3(walk.s_uv)), b_vv = eigen_dot(n, load3(walk.s_vv));
+  const Four b_uu = eigen_dot(n, load3(walk.s_uu)), b_uv = eigen_dot(n, load3(walk.s_uv)),
+             b_vv = eigen_dot(n, load3(walk.s_vv));
   const Four m_uu = g_uu - phi * b_uu, m_uv = g_uv - phi * b_uv, m_vv = g_vv - phi * b_vv;
   const Four det = (g_uu * g_vv - g_uv * g_uv) * (m_uu * m_vv - m_uv * m_uv);
   const Four size = det < 0.0 ? -det : det;

@@ -39,15 +39,17 @@ void write_design(const ScratchFolder& folder) {
   ASSERT_TRUE(std::filesystem::exists(path));
 }
 
-TEST(DesignCompile, WritesTheImageThatLoadDesignGives) {
+TEST(DesignCompile, WritesTheImageThatLoadDesignGivesAndItsReach) {
   const ScratchFolder folder;
   write_design(folder);
   ASSERT_EQ(run_compile(folder, "blade.igs -o blade.bfd --outward -"), 0) << read_whole(folder.path() / "out.txt");
-  const LoadedDesign design = load_design(folder.path() / "blade.igs", OutwardOption::minus);
+  LoadedDesign design = load_design(folder.path() / "blade.igs", OutwardOption::minus);
+  mark_reach(design.image);
   const std::string image = read_whole(folder.path() / "blade.bfd");
   EXPECT_EQ(image, std::string(reinterpret_cast<const char*>(design.image.data()), design.image.size()));
   const std::string output = read_whole(folder.path() / "out.txt");
-  for (const char* part : {"1 patch, 16 Bezier spans", "degree 3 x 3", "unit of the design: mm", "outward side: -"}) {
+  for (const char* part :
+       {"1 patch, 16 Bezier spans", "degree 3 x 3", "unit of the design: mm", "reach: ", "outward side: -"}) {
     EXPECT_NE(output.find(part), std::string::npos) << part << " in\n" << output;
   }
   EXPECT_EQ(count_files(folder), 3U);

@@ -9,9 +9,9 @@
 namespace bladefit {
 
 /// Compiles surfaces that check_surface has accepted into a design image: Bezier spans with their normal cones, the
-/// bounding tree, header and CRC. `outward` is +1 or -1. The same surfaces give the same bytes. No span reaches anywhere
-/// (mark_reach): that takes longer than what one fit gains.
-/// Throws ToolError where the design has too many spans for the format.
+/// bounding tree, header and CRC. `outward` is +1 or -1. The same surfaces give the same bytes. No span reaches
+/// anywhere (mark_reach): that takes longer than what one fit gains. Throws ToolError where the design has too many
+/// spans for the format.
 std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward,
                                    ImageSize size = ImageSize::fast);
 

@@ -5,7 +5,8 @@
 namespace bladefit {
 
 /// Writes into a valid image how far each span reaches (ImageSpan::reach, ImageSpan::apart), which leaves out searches
-/// and changes no bit of a fit; for images that are kept. Works on all cores; the outcome does not depend on their number. Cost: a millisecond a span and core.
+/// and changes no bit of a fit; for images that are kept. Works on all cores; the outcome does not depend on their
+/// number. Cost: a millisecond a span and core.
 void mark_reach(std::vector<std::byte>& image);
 
 }  // namespace bladefit
