@@ -30,8 +30,9 @@ ReachGuess::ReachGuess(const Surface& surface) : surface_(surface), most_(kMost 
     const SpanDomain d = surface.domain(leaf.span);
     std::array<Vec3, 9>& places = samples_.emplace_back();
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const double s = leaf.s_min + 0.5 * static_cast<double>(k / 3) * (leaf.s_max - leaf.s_min);
-      const double t = leaf.t_min + 0.5 * static_cast<double>(k % 3) * (leaf.t_max - leaf.t_min);
+      const std::size_t row = k / 3, column = k % 3;
+      const double s = leaf.s_min + 0.5 * static_cast<double>(row) * (leaf.s_max - leaf.s_min);
+      const double t = leaf.t_min + 0.5 * static_cast<double>(column) * (leaf.t_max - leaf.t_min);
       places[k] = surface.evaluate({leaf.span, d.u_min + s * (d.u_max - d.u_min), d.v_min + t * (d.v_max - d.v_min)}).s;
     }
   }
