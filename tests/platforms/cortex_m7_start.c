@@ -15,5 +15,6 @@ static void fault(void) {
 }
 
 __attribute__((section(".vectors"), used)) static const void* const vectors[16] = {
-    &__StackTop, (const void*)begin, (const void*)fault, (const void*)fault, (const void*)fault, (const void*)fault, (const void*)fault,
+    &__StackTop,        (const void*)begin, (const void*)fault, (const void*)fault,
+    (const void*)fault, (const void*)fault, (const void*)fault,
 };
