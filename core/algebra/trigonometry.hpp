@@ -8,8 +8,8 @@ namespace bladefit {
 [[nodiscard]] double sine(double x);
 [[nodiscard]] double cosine(double x);
 
-/// The angle of (x, y) from the x axis, -pi to pi [rad]; 0 for (0, 0). Finite arguments. Within 2 units in the last
-/// place.
+/// The angle of (x, y) from the x axis, -pi to pi [rad]; 0 for (0, 0). Finite arguments. Within 4 units in the last
+/// place, and the same bits as above.
 [[nodiscard]] double angle_of(double y, double x);
 
 }  // namespace bladefit
