@@ -92,6 +92,7 @@ inline Constraints minimax(OwnedRows& rows) {
 /// The KKT conditions with everything in long double and nothing of the solver's: largest relative error of
 /// stationarity, largest violation, sum of |lambda slack|, smallest lambda.
 struct ExactKkt {
+  long double relative = 0;  ///< stationarity by the largest sum of |terms|, as KktResiduals has it, not by a term
   long double stationarity = 0, violation = 0, complementarity = 0, least = 0;
 };
 
@@ -103,19 +104,24 @@ inline long double exact_dot(const Vec8& a, const Vec8& x) {
 
 inline ExactKkt exact_kkt(const Mat8& hessian, const Vec8& gradient, const Constraints& c, const ActiveSetResult& r) {
   ExactKkt out;
-  long double scale = 0;
+  long double scale = 0, largest_terms = 0;
   for (int j = 0; j < c.variables; ++j) {
     long double sum = static_cast<long double>(gradient[j]) + exact_dot(hessian.row(j).transpose(), r.x);
+    long double terms = static_cast<long double>(std::abs(gradient[j])) +
+                        exact_dot(hessian.row(j).transpose().cwiseAbs(), r.x.cwiseAbs());
     scale = std::max({scale, std::abs(sum), static_cast<long double>(std::abs(gradient[j]))});
     for (int k = 0; k < r.active.count; ++k) {
       const auto& e = r.active.entries[static_cast<std::size_t>(k)];
       const auto term =
           static_cast<long double>(e.multiplier) * static_cast<long double>(half_space(c, e.index, e.side).normal[j]);
       sum -= term;
+      terms += std::abs(term);
       scale = std::max(scale, std::abs(term));
     }
     out.stationarity = std::max(out.stationarity, std::abs(sum));
+    largest_terms = std::max(largest_terms, terms);
   }
+  out.relative = out.stationarity / (largest_terms > 0 ? largest_terms : 1);
   out.stationarity /= scale > 0 ? scale : 1;
   for (int i = 0; i < c.rows.count + c.variables; ++i) {
     for (const Side side : {Side::lower, Side::upper}) {
