@@ -23,13 +23,17 @@
 
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/touching_balls.hpp"
 #include "tests/unit/trims/trimmed_shapes.hpp"
+#include "tools/design/image/reach.hpp"
 #include "tools/design/load_design.hpp"
 #include "tools/design/occ/cad_session.hpp"
 
 namespace bladefit {
 namespace {
 
+/// The shape whose face has poles.
+constexpr std::size_t kWithPoles = 6;
 /// Points of this share of the size off the faces.
 constexpr double kOff = 1e-3;
 /// Loops, and the curves of edges beside those of faces, are within this share of the size.
@@ -87,6 +91,7 @@ class TrimmedCase {
   }
 
   [[nodiscard]] const DesignImage& design() const { return design_; }
+  [[nodiscard]] const std::vector<std::byte>& image() const { return loaded_.image; }
   [[nodiscard]] const TopoDS_Shape& shape() const { return shape_; }
   [[nodiscard]] double size() const { return size_; }
 
@@ -213,6 +218,20 @@ TEST_P(TrimmedFeet, AreThoseThatOpenCascadeFinds) {
       "  %zu points, %zu wrong, %zu kinds wrong, %zu unproven, %zu on free edges, %zu missed by the reference\n",
       tally.points, tally.wrong, tally.kinds, tally.unproven, tally.on_edges, tally.missed_by_reference);
   EXPECT_LE(tally.unproven * 200, tally.points);
+}
+
+/// What lies beyond a loop is no rival, and nothing of a face hides behind one.
+TEST_P(TrimmedFeet, BallsWithinTheirReachHoldNoOtherPoint) {
+  const TrimmedCase given(testing::trimmed_shape(GetParam()));
+  std::vector<std::byte> image = given.image();
+  mark_reach(image);
+  DesignImage design;
+  ASSERT_EQ(DesignImage::open(image, design), Status::ok);
+  const testing::TouchingBalls balls = testing::touching_balls(Surface(design), testing::balls_asked(1000), 17);
+  std::printf("  %zu of %zu balls\n", balls.tested, balls.tried);
+  EXPECT_EQ(balls.held, 0U) << balls.first;
+  EXPECT_EQ(balls.rivals, 0U) << balls.first;
+  EXPECT_EQ(balls.tested == 0, GetParam() == kWithPoles) << "of a face with poles nothing is known";
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, TrimmedFeet, ::testing::Range<std::size_t>(0, testing::kTrimmedShapes));
