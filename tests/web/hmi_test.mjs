@@ -48,7 +48,7 @@ function project(name, panelPort) {
 }
 
 async function nodeRed(panelPort) {
-  const home = join(folder, "node-red"), port = await freePort();
+  const home = join(folder, "node-red-home"), port = await freePort();
   mkdirSync(home, { recursive: true });
   writeFileSync(join(home, "flows.json"), project("node_red_flow.json", panelPort));
   writeFileSync(join(home, "package.json"), readFileSync(join(kPackages, "../package.json")));
@@ -58,7 +58,7 @@ async function nodeRed(panelPort) {
 }
 
 async function fuxa(panelPort) {
-  const home = join(folder, "fuxa"), port = await freePort(), address = `http://127.0.0.1:${port}`;
+  const home = join(folder, "fuxa-home"), port = await freePort(), address = `http://127.0.0.1:${port}`;
   mkdirSync(home, { recursive: true });
   const server = await program([join(kPackages, "@frangoteam/fuxa/main.js"), "--userDir", home, "--port", String(port)], /WebServer is running/);
   const taken = await fetch(`${address}/api/project`, { method: "POST", headers: { "Content-Type": "application/json" }, body: project("fuxa_project.json", panelPort) });
@@ -79,14 +79,20 @@ async function waitFor(what, holds) {
   assert.fail(`in ${kWait / 1000} s: ${what}`);
 }
 
-// A session over a blade with a defect: { host, cmm, result }.
-async function defectiveBlade(t, name) {
+// A session over a blade with a defect, and a page of an HMI that shows points of it: { host, page, result }.
+async function watched(t, name, start) {
   const cmm = await machine(pointsWithDefect(811, 6, 0.31), 100);
   t.after(() => cmm.stop());
   const host = await session(name, kSource(cmm.port), { words: ["--until-idle", "5"] });
   t.after(() => host.stop());
-  const result = () => JSON.parse(readFileSync(join(folder, name, "result.json"), "utf8"));
-  return { host, result };
+  const hmi = await start(host.panelPort);
+  t.after(() => hmi.stop());
+  const page = await browser.newPage({ viewport: { width: 1024, height: 768 } });
+  t.after(() => page.close());
+  await page.goto(hmi.address);
+  await waitFor("points come in", async () => { const points = Number(await shown(page, "Points")); return points > 0 && points < 2000; });
+  await shoot(page, `${name}-live`);
+  return { host, page, result: () => JSON.parse(readFileSync(join(folder, name, "result.json"), "utf8")) };
 }
 
 // What the page must show of a result.
@@ -99,14 +105,7 @@ function expected(result) {
 }
 
 test("Node-RED shows a live session, its result, and that its host is gone", async (t) => {
-  const { host, result } = await defectiveBlade(t, "node-red-session");
-  const hmi = await nodeRed(host.panelPort);
-  t.after(() => hmi.stop());
-  const page = await browser.newPage({ viewport: { width: 1024, height: 768 } });
-  t.after(() => page.close());
-  await page.goto(hmi.address);
-  await waitFor("points come in", async () => { const points = Number(await shown(page, "Points")); return points > 0 && points < 2000; });
-  await shoot(page, "node-red-live");
+  const { host, page, result } = await watched(t, "node-red", nodeRed);
   await waitFor("the end is told", async () => /ended/.test(await shown(page, "Session")));
   const end = expected(result());
   assert.equal(await shown(page, "Verdict"), end.verdict.replaceAll("_", " ").toUpperCase());
@@ -121,15 +120,8 @@ test("Node-RED shows a live session, its result, and that its host is gone", asy
 });
 
 test("FUXA shows a live session and its result", async (t) => {
-  const { host, result } = await defectiveBlade(t, "fuxa-session");
-  const hmi = await fuxa(host.panelPort);
-  t.after(() => hmi.stop());
-  const page = await browser.newPage({ viewport: { width: 1024, height: 768 } });
-  t.after(() => page.close());
-  await page.goto(hmi.address);
-  await waitFor("points come in", async () => { const points = Number(await shown(page, "Points")); return points > 0 && points < 2000; });
+  const { page, result } = await watched(t, "fuxa", fuxa);
   assert.equal(await shown(page, "Test: 12345.678"), "12345.678");
-  await shoot(page, "fuxa-live");
   await waitFor("the end is told", async () => (await shown(page, "Ended: 1")) === "1");
   const end = expected(result());
   const values = async () => [await shown(page, "Verdict"), await shown(page, "Points"), await shown(page, "Leading edge out"), await shown(page, "Rest of blade out"),

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "tools/design/image/creases.hpp"
 #include "tools/design/image/joints.hpp"
@@ -159,6 +161,13 @@ void copy_array(const std::vector<Element>& array, std::uint64_t offset, std::ve
 }
 
 }  // namespace
+
+DesignImage open_new_image(const std::vector<std::byte>& image) {
+  DesignImage design;
+  if (const Status status = DesignImage::open(image, design); status != Status::ok)
+    throw std::logic_error(std::string("a new image is not valid: ") + status_text(status));
+  return design;
+}
 
 void seal_image(std::vector<std::byte>& image) {
   const std::uint32_t crc = image_crc(image);

@@ -18,6 +18,9 @@ std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, De
 /// Makes the CRC of an image right that has been changed.
 void seal_image(std::vector<std::byte>& image);
 
+/// An image that this program has just made, opened. Throws std::logic_error where it is not valid.
+[[nodiscard]] DesignImage open_new_image(const std::vector<std::byte>& image);
+
 /// Turns the outward side of a valid image to `outward` (+1 or -1), normal cones and CRC included.
 void set_outward(std::vector<std::byte>& image, int outward);
 

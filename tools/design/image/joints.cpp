@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <stdexcept>
 
 #include "core/geometry/surface/trim.hpp"
+#include "tools/design/image/image_writer.hpp"
 #include "tools/design/image/meeting_surface.hpp"
 
 namespace bladefit {
@@ -161,9 +161,7 @@ class JointMarker {
 }  // namespace
 
 void mark_joints(std::vector<std::byte>& image) {
-  DesignImage design;
-  if (const Status status = DesignImage::open(image, design); status != Status::ok)
-    throw std::logic_error(std::string("a new image is not valid: ") + status_text(status));
+  const DesignImage design = open_new_image(image);
   const Surface surface(design);
   const JointMarker marker(surface);
   std::vector<ImageSpan> spans(design.spans().begin(), design.spans().end());

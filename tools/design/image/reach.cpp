@@ -6,8 +6,6 @@
 #include <cstring>
 #include <future>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <thread>
 
 #include "tools/design/image/image_writer.hpp"
@@ -24,9 +22,7 @@ float rounded_down(double x) {
 }  // namespace
 
 void mark_reach(std::vector<std::byte>& image) {
-  DesignImage opened;
-  if (const Status status = DesignImage::open(image, opened); status != Status::ok)
-    throw std::logic_error(std::string("a new image is not valid: ") + status_text(status));
+  const DesignImage opened = open_new_image(image);
   const Surface surface(opened);
   const ReachDesign design(surface);
   std::vector<ImageSpan> spans(opened.spans().begin(), opened.spans().end());
