@@ -27,14 +27,14 @@ arguments=("$folder/design.bfd" "$data/points.csv" 0.4 0.6)
 
 # built NAME: core and C interface by the preset core, and the program.
 built() {
-  local name=$1 there=$folder/$1 compiler=${compilers[$1]} system=() link=() extra=()
+  local name=$1 there=$folder/$1 compiler=${compilers[$1]} system=() link=() start=() extra=() objects=()
   local c_compiler=${compiler/%++/cc}
   [[ $name == clang ]] && c_compiler=clang
   case $name in
     armhf | aarch64) system=(-DCMAKE_SYSTEM_NAME=Linux "-DCMAKE_SYSTEM_PROCESSOR=$name") ;;
     cortex-m7)
       system=(-DCMAKE_SYSTEM_NAME=Generic -DCMAKE_SYSTEM_PROCESSOR=arm -DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY)
-      extra=(tests/platforms/cortex_m7_start.c)
+      start=(cortex_m7_start)
       link=(--specs=rdimon.specs -T tests/platforms/cortex_m7.ld)
       ;;
     plain) extra=(tests/golden/digest_plain.cpp) ;;
@@ -45,9 +45,12 @@ built() {
     (
       set -x
       # shellcheck disable=SC2086
-      $c_compiler ${flags[$name]:-} -std=gnu99 -O1 -I. -c tests/platforms/platform_digest.c -o "$there/platform_digest.o"
+      for source in platform_digest "${start[@]}"; do
+        $c_compiler ${flags[$name]:-} -std=gnu99 -O1 -I. -c "tests/platforms/$source.c" -o "$there/$source.o" || exit
+        objects+=("$there/$source.o")
+      done
       # shellcheck disable=SC2086
-      $compiler ${flags[$name]:-} -std=c++20 -I. "${link[@]}" "$there/platform_digest.o" "${extra[@]}" "$there/firmware_bridge/libbladefit.a" \
+      $compiler ${flags[$name]:-} -std=c++20 -I. "${link[@]}" "${objects[@]}" "${extra[@]}" "$there/firmware_bridge/libbladefit.a" \
         "$there/core/libbladefit_core.a" -lm -o "$there/platform_digest"
     ) >>"$there.log" 2>&1
 }

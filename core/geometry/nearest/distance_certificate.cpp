@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bladefit {
 namespace {
@@ -110,7 +111,7 @@ DistanceRange distance_range(const BezierNet& net, const Vec3& r) {
   DistanceRange range;
   range.middle = middle.norm();
   const Vec3 direction = range.middle > 0.0 ? Vec3(middle / range.middle) : Vec3(Vec3::Zero());
-  double least = INFINITY, most = 0.0;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (std::uint32_t k = 0; k < count; ++k) {
     const Vec3 x = offset(net.points[k]);
     least = std::min(least, direction.dot(x));
@@ -159,7 +160,7 @@ DistanceForm::DistanceForm(const BezierNet& net, const Vec3& r, double bound) {
   } else {
     square<0, 0>(net, r, bound);
   }
-  least_weight_ = INFINITY;
+  least_weight_ = std::numeric_limits<double>::infinity();
   for (std::uint32_t k = 0; k < (net.degree_u + 1) * (net.degree_v + 1); ++k)
     least_weight_ = std::min(least_weight_, net.points[k][3]);
   size_ = std::abs(at(0, 0)) + std::abs(at(m_, n_)) + bound * bound;
