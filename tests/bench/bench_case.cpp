@@ -1,6 +1,7 @@
 #include "tests/bench/bench_case.hpp"
 #include "core/geometry/nearest/global_projection.hpp"
 #include "tests/support/json_file.hpp"
+#include "tools/design/read_design.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
