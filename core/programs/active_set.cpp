@@ -13,10 +13,14 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Proximal points; one or two are usual.
 constexpr int kMaxPasses = 20;
+/// After so many a multiplier that comes out below 0 again and again is taken for 0 where rounding could be why.
+constexpr int kUsualPasses = 5;
 /// The first proximal step against the distance to the worst row, and the growth where it was too short.
 constexpr double kFirstStep = 1e4, kStepGrowth = 1e3;
 /// A multiplier, or what is left of a gradient, this small against the whole is rounding.
 constexpr double kRounding = 1e-12;
+/// What cancelling terms leave, as a share of them.
+constexpr double kCancelled = 64.0 * kEpsilon;
 
 /// 0 for none.
 double smallest(const Vec8& values, int count) { return count > 0 ? values.head(count).minCoeff() : 0.0; }
@@ -46,7 +50,7 @@ class Solver {
       if (status != Status::ok) break;
       if (settled()) {
         recentre();
-        if (least_multiplier() >= -kRounding * now_.multipliers.cwiseAbs().maxCoeff()) break;
+        if (least_multiplier() >= (pass < kUsualPasses ? -rounding() : -negligible())) break;
       }
       if (changes_ == before && falls_for_ever()) {
         status = Status::unbounded;
@@ -97,12 +101,21 @@ class Solver {
   /// Takes x as the centre, so that a second solve refines the first.
   void recentre() {
     centre_ = x();
+    if (hessian_) terms_ = factor_->solve_lower(Vec8(hessian_->cwiseAbs() * centre_.cwiseAbs() + gradient_.cwiseAbs()));
     v_ = hessian_ ? factor_->solve_lower(Vec8(*hessian_ * centre_ + gradient_)) : Vec8(step_ * gradient_);
     for (int k = 0; k < set_.size(); ++k) {
       const WorkingSet::Member m = set_.member(k);
       set_.set_offset(k, offset_of(half_space(constraints_, m.index, m.side)));
     }
     now_ = set_.minimum(-v_);
+  }
+
+  /// A multiplier this small is rounding of the others.
+  [[nodiscard]] double rounding() const { return kRounding * now_.multipliers.cwiseAbs().maxCoeff(); }
+
+  /// One this small may be rounding of the terms that cancel in the gradient at the centre.
+  [[nodiscard]] double negligible() const {
+    return std::max(rounding(), kCancelled * terms_.norm() / set_.least_own_part());
   }
 
   [[nodiscard]] double least_multiplier() const { return smallest(now_.multipliers, set_.size()); }
@@ -217,9 +230,9 @@ class Solver {
     out.objective = gradient_.dot(out.x) + (hessian_ ? 0.5 * out.x.dot(*hessian_ * out.x) : 0.0);
     out.changes = changes_;
     out.active.count = set_.size();
-    const double rounding = kRounding * now_.multipliers.cwiseAbs().maxCoeff();
+    const double most = rounding(), least = -negligible();
     const double scale = hessian_ ? 1.0 : (step_ > 0.0 ? 1.0 / step_ : 0.0);
-    const auto cut = [&](double multiplier) { return std::abs(multiplier) <= rounding ? 0.0 : multiplier; };
+    const auto cut = [&](double multiplier) { return multiplier >= least && multiplier <= most ? 0.0 : multiplier; };
     for (int k = 0; k < set_.size(); ++k) {
       const WorkingSet::Member m = set_.member(k);
       out.active.entries[static_cast<std::size_t>(k)] = {m.index, m.side, scale * cut(now_.multipliers[k])};
@@ -244,7 +257,7 @@ class Solver {
   WorkingSet::Minimum now_;
   Violations waiting_;
   ActiveSet certificate_;
-  Vec8 centre_ = Vec8::Zero(), v_ = Vec8::Zero();
+  Vec8 centre_ = Vec8::Zero(), v_ = Vec8::Zero(), terms_ = Vec8::Zero();
   double step_ = 0.0;
   int changes_ = 0, scans_ = 0;
 };

@@ -12,6 +12,12 @@ constexpr double kLeastPivot = 1e-12;
 
 }  // namespace
 
+double WorkingSet::least_own_part() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < size_; ++k) least = std::min(least, r_(k, k));
+  return least;
+}
+
 int WorkingSet::find(int index, Side side) const {
   for (int k = 0; k < size_; ++k) {
     if (member(k).index == index && member(k).side == side) return k;

@@ -19,6 +19,9 @@ class WorkingSet {
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] Member member(int k) const { return members_[static_cast<std::size_t>(k)]; }
+  /// The least part of a member's normal that those before it do not span: what divides, and so raises, the rounding of
+  /// multipliers. Infinite where there is none.
+  [[nodiscard]] double least_own_part() const;
   /// -1: not a member.
   [[nodiscard]] int find(int index, Side side) const;
 

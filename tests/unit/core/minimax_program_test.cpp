@@ -53,8 +53,10 @@ void assert_linear_minimum(const Constraints& c, const Vec8& gradient, const Act
   RC_ASSERT(result.status == Status::ok);
   const ExactKkt exact = exact_kkt(Mat8::Zero(), gradient, c, result);
   RC_ASSERT(exact.stationarity < 1e-13L);
-  RC_ASSERT(exact.violation < 1e-14L);
-  RC_ASSERT(exact.complementarity < 1e-14L);
+  // What a row is off by is rounding of its terms, which grow with x: near-parallel rows meet far away.
+  const long double rounding = 1e-14L * (1.0L + result.x.cwiseAbs().maxCoeff());
+  RC_ASSERT(exact.violation < rounding);
+  RC_ASSERT(exact.complementarity < rounding);
   RC_ASSERT(exact.least >= 0.0L);
   RC_ASSERT(result.active.count <= c.variables);
 }
