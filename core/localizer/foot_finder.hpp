@@ -47,6 +47,10 @@ class FootFinder {
   template <class StartOf, class Use>
   void find_each(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
                  StartOf start_of, Use use) const;
+  /// The same of up to kLanes points, whose measurements hold until the block goes.
+  template <class StartOf, class Use>
+  void find_block(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
+                  StartOf start_of, Use use, LaneBlock& block) const;
   /// Expansion of the measured distance, `x` away from the reference of the sums it is for.
   [[nodiscard]] DistanceRow row(const Measurement& m, const Vec6& x) const;
 
@@ -65,20 +69,26 @@ class FootFinder {
 };
 
 template <class StartOf, class Use>
+void FootFinder::find_block(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose,
+                            const Vec6& x, StartOf start_of, Use use, LaneBlock& block) const {
+  std::array<FootStart, kLanes> starts;
+  for (std::uint32_t lane = 0; lane < indices.size(); ++lane) {
+    starts[lane] = start_of(indices[lane]);
+    block.feet.enter(problem_.surface, apply(pose, store[indices[lane]].position), starts[lane].place);
+  }
+  track(x, block);
+  for (std::uint32_t lane = 0; lane < indices.size(); ++lane) {
+    use(indices[lane], find_tracked(starts[lane], store[indices[lane]], pose, block, lane));
+  }
+}
+
+template <class StartOf, class Use>
 void FootFinder::find_each(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose,
                            const Vec6& x, StartOf start_of, Use use) const {
   for (std::size_t first = 0; first < indices.size(); first += kLanes) {
-    const auto some = indices.subspan(first, std::min<std::size_t>(kLanes, indices.size() - first));
     LaneBlock block;
-    std::array<FootStart, kLanes> starts;
-    for (std::uint32_t lane = 0; lane < some.size(); ++lane) {
-      starts[lane] = start_of(some[lane]);
-      block.feet.enter(problem_.surface, apply(pose, store[some[lane]].position), starts[lane].place);
-    }
-    track(x, block);
-    for (std::uint32_t lane = 0; lane < some.size(); ++lane) {
-      use(some[lane], find_tracked(starts[lane], store[some[lane]], pose, block, lane));
-    }
+    const std::size_t count = std::min<std::size_t>(kLanes, indices.size() - first);
+    find_block(store, indices.subspan(first, count), pose, x, start_of, use, block);
   }
 }
 

@@ -79,18 +79,21 @@ void Refinement::begin_sweep() {
   if (phase_ == Phase::mode) mode_.begin_sweep();
 }
 
-/// Measures the next points of the sweep and returns how many: as many as there are lanes, where there are so many.
+/// Measures the next points of the sweep, up to where the next block of lanes begins, and returns how many.
 std::uint32_t Refinement::sweep_on(std::uint32_t max_points) {
   std::array<std::uint32_t, kLanes> indices{};
-  const auto count = std::min<std::uint32_t>({kLanes, max_points, store_.size() - sums_.cursor()});
-  for (std::uint32_t k = 0; k < count; ++k) indices[k] = sums_.cursor() + k;
-  finder_.find_each(
+  const std::uint32_t first = sums_.cursor(), to_next_block = kLanes - first % kLanes;
+  const auto count = std::min<std::uint32_t>({to_next_block, max_points, store_.size() - first});
+  for (std::uint32_t k = 0; k < count; ++k) indices[k] = first + k;
+  LaneBlock block;
+  finder_.find_block(
       store_, {indices.data(), count}, estimate_.pose(), Vec6::Zero(),
       [this](std::uint32_t index) {
         return phase_ == Phase::mode ? mode_.start_of(index)
                                      : FootStart{place_of(store_[index]), sweep_.search_of(store_[index])};
       },
-      [this](std::uint32_t index, const Measurement& m) { take_in(index, m); });
+      [this](std::uint32_t index, const Measurement& m) { take_in(index, m); }, block);
+  sums_.end_block(block);
   return count;
 }
 
@@ -106,9 +109,12 @@ void Refinement::take_in(std::uint32_t index, const Measurement& m) {
     sums_.pass_over();
     return;
   }
+  const bool in_block = sums_.in_block(m);
+  if (in_block && !of_mode) return sums_.sweep_in_block(point, m);
   const DistanceRow row = finder_.row(m, Vec6::Zero());
-  sums_.sweep_over(point, m, row);
   if (of_mode) mode_.set_row(index, row);
+  if (in_block) return sums_.sweep_in_block(point, m);
+  sums_.sweep_over(point, m, row);
 }
 
 /// Moves the pose and decides what comes next.

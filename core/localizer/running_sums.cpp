@@ -31,6 +31,10 @@ void RunningSums::add_at(FitSums& sums, const StoredPoint& point, const Measurem
 void RunningSums::add_row(FitSums& sums, const StoredPoint& point, const Measurement& m, const DistanceRow& row,
                           const Vec6& x) const {
   sums.model.add(row, x, point.weight, loss_.terms(m.foot.distance));
+  add_to_region(sums, point, m);
+}
+
+void RunningSums::add_to_region(FitSums& sums, const StoredPoint& point, const Measurement& m) const {
   const Region region = selection_.region(point, m.foot);
   sums.regions[static_cast<std::size_t>(region)].add(m.foot.distance, point.sequence);
 }
@@ -93,14 +97,27 @@ void RunningSums::settle_all(PointStore& store, const PoseEstimate& estimate) {
 }
 
 void RunningSums::begin_sweep(const Pose& pose) {
+  swept_.clear();
   next_ = evicted_;
   next_.model = shifted(evicted_.model, pose, problem_.frame);
   cursor_ = 0;
 }
 
 void RunningSums::sweep_over(const StoredPoint& point, const Measurement& m, const DistanceRow& row) {
-  add_row(next_, point, m, row, Vec6::Zero());
+  swept_.add(cursor_ % kLanes, row, point.weight, loss_.terms(m.foot.distance));
+  add_to_region(next_, point, m);
   ++cursor_;
+}
+
+void RunningSums::sweep_in_block(const StoredPoint& point, const Measurement& m) {
+  swept_.count_in_block(m.lane, point.weight, loss_.terms(m.foot.distance));
+  add_to_region(next_, point, m);
+  ++cursor_;
+}
+
+void RunningSums::commit() {
+  swept_.move_to(next_.model);
+  committed_ = current_ = next_;
 }
 
 }  // namespace bladefit

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "core/fit/swept_rows.hpp"
 #include "core/localizer/fit_sums.hpp"
 #include "core/localizer/foot_finder.hpp"
 #include "core/localizer/pose_estimate.hpp"
@@ -57,16 +58,22 @@ class RunningSums {
   [[nodiscard]] std::uint32_t cursor() const { return cursor_; }
   /// The sweep's next point, which counts, with its row at the pose that the sweep began at.
   void sweep_over(const StoredPoint& point, const Measurement& m, const DistanceRow& row);
+  /// The same, where its row is in the lane of a block that end_block() is given.
+  void sweep_in_block(const StoredPoint& point, const Measurement& m);
+  /// Whether the row of the sweep's next point can be taken from there.
+  [[nodiscard]] bool in_block(const Measurement& m) const { return m.block != nullptr && m.lane == cursor_ % kLanes; }
+  void end_block(const LaneBlock& block) { swept_.add_block(block.rows); }
   /// The sweep's next point does not count.
   void pass_over() { ++cursor_; }
   /// At the end of the sweep: the next sums are in use.
-  void commit() { committed_ = current_ = next_; }
+  void commit();
 
  private:
   void add(FitSums& sums, const StoredPoint& point, const Measurement& m, const Vec6& x) const;
   void add_at(FitSums& sums, const StoredPoint& point, const Measurement& m, const Pose& pose) const;
   void add_row(FitSums& sums, const StoredPoint& point, const Measurement& m, const DistanceRow& row,
                const Vec6& x) const;
+  void add_to_region(FitSums& sums, const StoredPoint& point, const Measurement& m) const;
   void make_recent(StoredPoint& point, std::uint32_t index);
   void settle_one(PointStore& store, std::uint32_t place, const PoseEstimate& estimate);
 
@@ -77,6 +84,7 @@ class RunningSums {
   FitSums committed_;  ///< all points but the active recent ones
   FitSums current_;    ///< those and the recent ones
   FitSums next_;       ///< by the sweep under way; takes the place of committed_ at its end
+  SweptRows swept_;    ///< rows of it that are not in next_ yet
   FitSums evicted_;    ///< points that have no place in memory
   std::uint32_t cursor_ = 0;
   /// Indices of the recent points. The first active_count_ are outside of committed_, the others leave it at the
@@ -87,6 +95,7 @@ class RunningSums {
 
 template <class Review>
 bool RunningSums::refresh(PointStore& store, const PoseEstimate& estimate, std::uint32_t budget, Review review) {
+  swept_.move_to(next_.model);  // a refinement was cut short
   const Vec6 x = motion_between(next_.model.reference, estimate.pose(), problem_.frame);
   const std::uint32_t end = cursor_ + std::min(budget, store.size() - cursor_);
   while (cursor_ < end) {

@@ -39,6 +39,21 @@ struct LaneRows {
   bool regular[kLanes];              ///< false: the parametrisation is degenerate there, and there is no normal
 };
 
+/// What the rows of the lanes count for: the terms of the loss, times the weight of the point. All 0 where a lane does
+/// not count, whatever stands in its row.
+struct LaneTerms {
+  alignas(32) LaneNumbers counts;         ///< 1 or 0
+  alignas(32) LaneNumbers weight, slope;  ///< LossTerms::weight and slope [mm]
+  alignas(32) LaneNumbers rest;           ///< LossTerms::curvature less its weight
+  alignas(32) LaneNumbers value;          ///< LossTerms::value [mm^2]
+};
+
+/// Sums of rows taken at the reference of the sums, of each lane by itself: what a QuadraticModel holds of them.
+struct LaneSums {
+  alignas(32) LaneNumbers gauss[21], bend[21];  ///< upper triangles, column by column
+  alignas(32) LaneNumbers gradient[6], value, weight;
+};
+
 /// True if the processor has AVX2 and the kernels were compiled for it (by GCC only).
 [[nodiscard]] bool lanes_available();
 
@@ -46,5 +61,7 @@ struct LaneRows {
 void walk_lanes(LaneWalk& walk);
 /// Cost: some 15 ns a point.
 void take_rows(const LaneWalk& walk, const LaneFrame& frame, LaneRows& rows);
+/// Cost: some 15 ns for all lanes. SweptRows::add() does the same for one.
+void add_rows(const LaneRows& rows, const LaneTerms& terms, LaneSums& sums);
 
 }  // namespace bladefit
