@@ -57,7 +57,7 @@ void reopen(LocalizerParts& p) {
 
 void count_in(LocalizerParts& p, const StoredPoint& point, const Measurement& m) {
   p.stream.last_sequence = point.sequence;
-  p.stream.last_place = m.projection.place;
+  p.stream.last_place = m.place;
   ++p.stream.accepted;
 }
 

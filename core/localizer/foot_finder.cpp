@@ -1,5 +1,6 @@
 #include "core/localizer/foot_finder.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -32,9 +33,10 @@ bool FootFinder::outside_window(const StoredPoint& point) const {
 Measurement FootFinder::find_from(const FootStart& start, const StoredPoint& point, const Pose& pose) const {
   Measurement m;
   m.r = apply(pose, point.position);
-  m.projection = project_local(problem_.surface, m.r, start.place);
+  m.alone = project_local(problem_.surface, m.r, start.place);
   examine(point, pose, start.search, m);
-  m.foot = foot_of(problem_.surface, m.projection, problem_.config.probe_radius_mm);
+  m.place = m.alone.place;
+  m.foot = foot_of(problem_.surface, m.alone, problem_.config.probe_radius_mm);
   return m;
 }
 
@@ -57,30 +59,51 @@ void FootFinder::track(const Vec6& x, LaneBlock& block) const {
 /// What find_from() gives, to the last bit, from the lane in which the point was tracked.
 Measurement FootFinder::find_tracked(const FootStart& start, const StoredPoint& point, const Pose& pose,
                                      const LaneBlock& block, std::uint32_t lane) const {
-  if (!block.feet.found(lane) || !block.rows.regular[lane]) return find_from(start, point, pose);
   Measurement m;
   m.r = block.feet.point(lane);
-  m.projection = block.feet.projection(lane);
+  m.alone = block.feet.projection(lane);
   examine(point, pose, start.search, m);
-  const SurfacePlace &own = block.feet.place(lane), &found = m.projection.place;
-  if (found.span != own.span || found.u != own.u || found.v != own.v) {
-    m.foot = foot_of(problem_.surface, m.projection, problem_.config.probe_radius_mm);
-    return m;
+  m.place = m.alone.place;
+  const SurfacePlace& own = block.feet.place(lane);
+  if (m.place.span == own.span && m.place.u == own.u && m.place.v == own.v) {
+    m.block = &block;
+    m.lane = lane;
+    LaneFoot{&block, lane, false}.write_to(m.foot, problem_.surface);
+  } else {
+    m.foot = foot_of(problem_.surface, m.alone, problem_.config.probe_radius_mm);
   }
-  m.foot = {problem_.surface.span(own.span).patch,
-            own.u,
-            own.v,
-            m.projection.at.s,
-            lane_of(block.rows.normal, lane),
-            block.rows.distance[lane],
-            FootKind::interior};
-  m.block = &block;
-  m.lane = lane;
+  return m;
+}
+
+/// Whether examine() would keep the foot in a lane without a search; with what it would prove.
+bool FootFinder::stays_in_lane(const FootStart& start, const StoredPoint& point, const Pose& pose,
+                               LaneFoot& foot) const {
+  if (start.search == Search::keep) return true;
+  const LaneProjections& feet = foot.block->feet;
+  if (left_trim(point)) return false;
+  if (may_be_overtaken(point, start.search, feet.point(foot.lane))) return false;
+  const bool directed = point.approach.squaredNorm() > 0.0, always = start.search == Search::always;
+  if (!directed && !always) return true;
+  const Vec3 cross = feet.cross(foot.lane);
+  const double side = problem_.surface.side_of(foot.place().span);
+  if (directed && !faces_probe(side * cross, pose.rotation * point.approach)) return false;
+  foot.proven_nearest = always && nearest_by_reach(problem_.surface, foot.place(), feet.offset(foot.lane), cross);
+  return foot.proven_nearest || !always;
+}
+
+Measurement FootFinder::measured(const LaneFoot& foot) const {
+  Measurement m;
+  m.r = foot.block->feet.point(foot.lane);
+  m.place = foot.place();
+  m.block = foot.block;
+  m.lane = foot.lane;
+  m.ranked = foot.proven_nearest;
+  foot.write_to(m.foot, problem_.surface);
   return m;
 }
 
 DistanceRow FootFinder::row(const Measurement& m, const Vec6& x) const {
-  if (m.block == nullptr) return distance_row(m.projection, m.foot, m.r, x, problem_.frame);
+  if (m.block == nullptr) return distance_row(m.alone, m.foot, m.r, x, problem_.frame);
   DistanceRow row;
   row.distance = m.foot.distance;
   for (int k = 0; k < 6; ++k) row.gradient[k] = m.block->rows.gradient[k][m.lane];
@@ -94,31 +117,34 @@ DistanceRow FootFinder::row(const Measurement& m, const Vec6& x) const {
 /// Whether the projection that a point was tracked to is its nearest: where that is in doubt, the design is searched.
 void FootFinder::examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const {
   const Surface& surface = problem_.surface;
-  const bool tracked = m.projection.converged && !m.projection.outside;
-  if (search == Search::keep && tracked && !falls_over_seam(surface, m.projection)) return;
+  const bool tracked = m.alone.converged && !m.alone.outside;
+  if (search == Search::keep && tracked && !falls_over_seam(surface, m.alone)) return;
   ProjectionQuery query{m.r, pose.rotation * point.approach};
-  const bool doubtful = !tracked || left_trim(point) || m.projection.fixed_u || m.projection.fixed_v ||
-                        m.projection.at_pole || !faces_probe(surface, m.projection, query.approach);
-  // Distances change by no more than the point moves, so within half its margin no local minimum that was there can
-  // have come nearer than the tracked foot. A newborn one could: refine() ends with a proof of every foot.
-  const bool far = search == Search::past_margin && 2.0 * (m.r - point.ranked_at).norm() >= point.runner_up.margin;
-  const bool known = !doubtful && (!far || weigh_runner_up(point, query, m));
+  const bool doubtful = !tracked || left_trim(point) || m.alone.fixed_u || m.alone.fixed_v || m.alone.at_pole ||
+                        !faces_probe(surface, m.alone, query.approach);
+  const bool known = !doubtful && (!may_be_overtaken(point, search, m.r) || weigh_runner_up(point, query, m));
   if (known && search != Search::always) return;
   if (search == Search::past_margin) query.margin = tuning::kSearchMargin * problem_.frame.length;
   if (!doubtful && proven_without_search(query.margin, m)) return;
-  const GlobalProjection global = project_global(surface, query, &m.projection);
+  const GlobalProjection global = project_global(surface, query, &m.alone);
   // Newton's method does not end on a crease of the surface: there it is the foot of before that is found again.
-  const Vec3& before = tracked ? m.projection.at.s : point.foot.point;
+  const Vec3& before = tracked ? m.alone.at.s : point.foot.point;
   m.changed = !same_foot(global.nearest.at.s, before);
-  m.projection = global.nearest;
+  m.alone = global.nearest;
   m.searched = m.ranked = true;
   m.runner_up = global.runner_up;
   m.proven = global.proven;
 }
 
+/// Distances change by no more than the point moves, so within half its margin no local minimum that was there can have
+/// come nearer than the tracked foot. A newborn one could: refine() ends with a proof of every foot.
+bool FootFinder::may_be_overtaken(const StoredPoint& point, Search search, const Vec3& r) const {
+  return search == Search::past_margin && 2.0 * (r - point.ranked_at).norm() >= point.runner_up.margin;
+}
+
 /// What a search would find, with its margin to other local minima, is told by the reach of the foot.
 bool FootFinder::proven_without_search(double margin, Measurement& m) const {
-  const ReachProof proof = proof_by_reach(problem_.surface, m.projection);
+  const ReachProof proof = proof_by_reach(problem_.surface, m.alone);
   if (!proof.nearest || (margin > 0.0 && proof.margin < tuning::kMarginByReach * margin)) return false;
   m.ranked = true;
   m.runner_up = nothing_within(margin);
@@ -142,15 +168,15 @@ bool FootFinder::weigh_runner_up(const StoredPoint& point, const ProjectionQuery
   if (!(margin_to_third > 0.0)) return false;
   const Projection other = project_local(problem_.surface, m.r, point.runner_up.place);
   if (!other.converged || other.outside) return false;
-  double margin = other.offset.norm() - m.projection.offset.norm();
+  double margin = other.offset.norm() - m.alone.offset.norm();
   SurfacePlace place = other.place;
-  if (same_foot(other.at.s, m.projection.at.s)) {
+  if (same_foot(other.at.s, m.alone.at.s)) {
     margin = margin_to_third;  // the two have become one
   } else if (margin < 0.0 && faces_probe(problem_.surface, other, query.approach)) {
     if (other.fixed_u || other.fixed_v || other.at_pole) return false;
     margin = -margin;
-    place = m.projection.place;
-    m.projection = other;
+    place = m.alone.place;
+    m.alone = other;
     m.changed = true;
   }
   m.ranked = true;

@@ -47,10 +47,13 @@ class FootFinder {
   template <class StartOf, class Use>
   void find_each(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
                  StartOf start_of, Use use) const;
-  /// The same of up to kLanes points, whose measurements hold until the block goes.
-  template <class StartOf, class Use>
+  /// The same of up to kLanes points into a block that holds as long as the caller wants. `use_lane(index, foot)` takes
+  /// those that are tracked in a lane and need no search.
+  template <class StartOf, class UseLane, class Use>
   void find_block(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose, const Vec6& x,
-                  StartOf start_of, Use use, LaneBlock& block) const;
+                  StartOf start_of, UseLane use_lane, Use use, LaneBlock& block) const;
+  /// The measurement of a foot in a lane.
+  [[nodiscard]] Measurement measured(const LaneFoot& foot) const;
   /// Expansion of the measured distance, `x` away from the reference of the sums it is for.
   [[nodiscard]] DistanceRow row(const Measurement& m, const Vec6& x) const;
 
@@ -59,7 +62,10 @@ class FootFinder {
   void track(const Vec6& x, LaneBlock& block) const;
   [[nodiscard]] Measurement find_tracked(const FootStart& start, const StoredPoint& point, const Pose& pose,
                                          const LaneBlock& block, std::uint32_t lane) const;
+  [[nodiscard]] bool stays_in_lane(const FootStart& start, const StoredPoint& point, const Pose& pose,
+                                   LaneFoot& foot) const;
   void examine(const StoredPoint& point, const Pose& pose, Search search, Measurement& m) const;
+  [[nodiscard]] bool may_be_overtaken(const StoredPoint& point, Search search, const Vec3& r) const;
   [[nodiscard]] bool weigh_runner_up(const StoredPoint& point, const ProjectionQuery& query, Measurement& m) const;
   [[nodiscard]] bool proven_without_search(double margin, Measurement& m) const;
   [[nodiscard]] bool left_trim(const StoredPoint& point) const;
@@ -68,9 +74,9 @@ class FootFinder {
   const FitProblem& problem_;
 };
 
-template <class StartOf, class Use>
+template <class StartOf, class UseLane, class Use>
 void FootFinder::find_block(const PointStore& store, std::span<const std::uint32_t> indices, const Pose& pose,
-                            const Vec6& x, StartOf start_of, Use use, LaneBlock& block) const {
+                            const Vec6& x, StartOf start_of, UseLane use_lane, Use use, LaneBlock& block) const {
   std::array<FootStart, kLanes> starts;
   for (std::uint32_t lane = 0; lane < indices.size(); ++lane) {
     starts[lane] = start_of(indices[lane]);
@@ -78,7 +84,15 @@ void FootFinder::find_block(const PointStore& store, std::span<const std::uint32
   }
   track(x, block);
   for (std::uint32_t lane = 0; lane < indices.size(); ++lane) {
-    use(indices[lane], find_tracked(starts[lane], store[indices[lane]], pose, block, lane));
+    const StoredPoint& point = store[indices[lane]];
+    LaneFoot foot{&block, lane, false};
+    if (!block.feet.found(lane) || !block.rows.regular[lane]) {
+      use(indices[lane], find_from(starts[lane], point, pose));
+    } else if (stays_in_lane(starts[lane], point, pose, foot)) {
+      use_lane(indices[lane], foot);
+    } else {
+      use(indices[lane], find_tracked(starts[lane], point, pose, block, lane));
+    }
   }
 }
 
@@ -88,7 +102,8 @@ void FootFinder::find_each(const PointStore& store, std::span<const std::uint32_
   for (std::size_t first = 0; first < indices.size(); first += kLanes) {
     LaneBlock block;
     const std::size_t count = std::min<std::size_t>(kLanes, indices.size() - first);
-    find_block(store, indices.subspan(first, count), pose, x, start_of, use, block);
+    const auto use_lane = [&](std::uint32_t index, const LaneFoot& foot) { use(index, measured(foot)); };
+    find_block(store, indices.subspan(first, count), pose, x, start_of, use_lane, use, block);
   }
 }
 

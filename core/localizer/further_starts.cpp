@@ -95,7 +95,7 @@ void FurtherStarts::take_in(PointStore& store, std::uint32_t i, const Measuremen
                             KeptSheets& sheets) {
   if (m.searched) store.count_search();
   if (m.changed) ++start_.others;
-  sheets.try_place(i, m.projection.place);
+  sheets.try_place(i, m.place);
   if (selection_.left_out(store[i], m.foot)) {
     program.skip_row(i);
   } else {

@@ -35,12 +35,21 @@ std::uint32_t PointStore::find(std::uint32_t sequence) const {
 
 void PointStore::record(StoredPoint& point, const Measurement& m, std::uint32_t revision) {
   point.foot = m.foot;
-  point.span = m.projection.place.span;
+  point.span = m.place.span;
   point.revision = revision;
   if (m.searched) ++searches_;
   if (!m.ranked) return;
   point.ranked_at = m.r;
   point.runner_up = m.runner_up;
+}
+
+void PointStore::record(StoredPoint& point, const LaneFoot& foot, const Surface& surface, std::uint32_t revision) {
+  foot.write_to(point.foot, surface);
+  point.span = foot.place().span;
+  point.revision = revision;
+  if (!foot.proven_nearest) return;
+  point.ranked_at = foot.block->feet.point(foot.lane);
+  point.runner_up = nothing_within(0.0);
 }
 
 }  // namespace bladefit

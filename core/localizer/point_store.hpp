@@ -34,6 +34,8 @@ class PointStore {
 
   /// Takes over what was measured of a point, stored or passing, at the pose of this revision.
   void record(StoredPoint& point, const Measurement& m, std::uint32_t revision);
+  /// The same of a foot in a lane.
+  void record(StoredPoint& point, const LaneFoot& foot, const Surface& surface, std::uint32_t revision);
   /// A global search was made for a point without recording what it found.
   void count_search() { ++searches_; }
   /// Global searches for the feet of points so far, those for a window left out.

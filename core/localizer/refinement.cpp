@@ -88,13 +88,16 @@ std::uint32_t Refinement::sweep_on(std::uint32_t max_points) {
   LaneBlock block;
   finder_.find_block(
       store_, {indices.data(), count}, estimate_.pose(), Vec6::Zero(),
-      [this](std::uint32_t index) {
-        return phase_ == Phase::mode ? mode_.start_of(index)
-                                     : FootStart{place_of(store_[index]), sweep_.search_of(store_[index])};
-      },
+      [this](std::uint32_t index) { return start_of(index); },
+      [this](std::uint32_t index, const LaneFoot& foot) { take_in(index, foot); },
       [this](std::uint32_t index, const Measurement& m) { take_in(index, m); }, block);
   sums_.end_block(block);
   return count;
+}
+
+FootStart Refinement::start_of(std::uint32_t index) const {
+  if (phase_ == Phase::mode) return mode_.start_of(index);
+  return {place_of(store_[index]), sweep_.search_of(store_[index])};
 }
 
 /// The sweep's next point was measured.
@@ -105,16 +108,22 @@ void Refinement::take_in(std::uint32_t index, const Measurement& m) {
   store_.record(point, m, estimate_.revision());
   const bool of_mode = phase_ == Phase::mode, counts = !selection_.left_out(point, m.foot);
   if (of_mode) mode_.note(index, m, counts);
-  if (!counts) {
-    sums_.pass_over();
-    return;
-  }
-  const bool in_block = sums_.in_block(m);
-  if (in_block && !of_mode) return sums_.sweep_in_block(point, m);
+  if (!counts) return sums_.pass_over();
+  const bool in_block = m.block != nullptr && sums_.in_block(m.lane);
   const DistanceRow row = finder_.row(m, Vec6::Zero());
   if (of_mode) mode_.set_row(index, row);
-  if (in_block) return sums_.sweep_in_block(point, m);
+  if (in_block) return sums_.sweep_in_block(point);
   sums_.sweep_over(point, m, row);
+}
+
+/// The same of a foot in a lane, which is no exit: only feet on edges are. In least squares nothing else is asked of
+/// it.
+void Refinement::take_in(std::uint32_t index, const LaneFoot& foot) {
+  if (phase_ == Phase::mode || !sums_.in_block(foot.lane)) return take_in(index, finder_.measured(foot));
+  StoredPoint& point = store_[index];
+  store_.record(point, foot, problem_.surface, estimate_.revision());
+  if (selection_.left_out(point, point.foot)) return sums_.pass_over();
+  sums_.sweep_in_block(point);
 }
 
 /// Moves the pose and decides what comes next.

@@ -45,7 +45,9 @@ class Refinement {
   [[nodiscard]] Status start_on(const Call& call);
   void begin_sweep();
   std::uint32_t sweep_on(std::uint32_t max_points);
+  [[nodiscard]] FootStart start_of(std::uint32_t index) const;
   void take_in(std::uint32_t index, const Measurement& m);
+  void take_in(std::uint32_t index, const LaneFoot& foot);
   [[nodiscard]] Status finish_sweep(const Call& call);
   [[nodiscard]] double solve(bool concluded);
 

@@ -31,12 +31,12 @@ void RunningSums::add_at(FitSums& sums, const StoredPoint& point, const Measurem
 void RunningSums::add_row(FitSums& sums, const StoredPoint& point, const Measurement& m, const DistanceRow& row,
                           const Vec6& x) const {
   sums.model.add(row, x, point.weight, loss_.terms(m.foot.distance));
-  add_to_region(sums, point, m);
+  add_to_region(sums, point, m.foot);
 }
 
-void RunningSums::add_to_region(FitSums& sums, const StoredPoint& point, const Measurement& m) const {
-  const Region region = selection_.region(point, m.foot);
-  sums.regions[static_cast<std::size_t>(region)].add(m.foot.distance, point.sequence);
+void RunningSums::add_to_region(FitSums& sums, const StoredPoint& point, const Foot& foot) const {
+  const Region region = selection_.region(point, foot);
+  sums.regions[static_cast<std::size_t>(region)].add(foot.distance, point.sequence);
 }
 
 void RunningSums::take_in(PointStore& store, std::uint32_t index, const PoseEstimate& estimate) {
@@ -105,13 +105,13 @@ void RunningSums::begin_sweep(const Pose& pose) {
 
 void RunningSums::sweep_over(const StoredPoint& point, const Measurement& m, const DistanceRow& row) {
   swept_.add(cursor_ % kLanes, row, point.weight, loss_.terms(m.foot.distance));
-  add_to_region(next_, point, m);
+  add_to_region(next_, point, m.foot);
   ++cursor_;
 }
 
-void RunningSums::sweep_in_block(const StoredPoint& point, const Measurement& m) {
-  swept_.count_in_block(m.lane, point.weight, loss_.terms(m.foot.distance));
-  add_to_region(next_, point, m);
+void RunningSums::sweep_in_block(const StoredPoint& point) {
+  swept_.count_in_block(cursor_ % kLanes, point.weight, loss_.terms(point.foot.distance));
+  add_to_region(next_, point, point.foot);
   ++cursor_;
 }
 

@@ -58,10 +58,10 @@ class RunningSums {
   [[nodiscard]] std::uint32_t cursor() const { return cursor_; }
   /// The sweep's next point, which counts, with its row at the pose that the sweep began at.
   void sweep_over(const StoredPoint& point, const Measurement& m, const DistanceRow& row);
-  /// The same, where its row is in the lane of a block that end_block() is given.
-  void sweep_in_block(const StoredPoint& point, const Measurement& m);
-  /// Whether the row of the sweep's next point can be taken from there.
-  [[nodiscard]] bool in_block(const Measurement& m) const { return m.block != nullptr && m.lane == cursor_ % kLanes; }
+  /// The same, where its row is in the lane of a block that end_block() is given. The foot was recorded.
+  void sweep_in_block(const StoredPoint& point);
+  /// Whether the row of the sweep's next point, which is in this lane, can be taken from there.
+  [[nodiscard]] bool in_block(std::uint32_t lane) const { return lane == cursor_ % kLanes; }
   void end_block(const LaneBlock& block) { swept_.add_block(block.rows); }
   /// The sweep's next point does not count.
   void pass_over() { ++cursor_; }
@@ -73,7 +73,7 @@ class RunningSums {
   void add_at(FitSums& sums, const StoredPoint& point, const Measurement& m, const Pose& pose) const;
   void add_row(FitSums& sums, const StoredPoint& point, const Measurement& m, const DistanceRow& row,
                const Vec6& x) const;
-  void add_to_region(FitSums& sums, const StoredPoint& point, const Measurement& m) const;
+  void add_to_region(FitSums& sums, const StoredPoint& point, const Foot& foot) const;
   void make_recent(StoredPoint& point, std::uint32_t index);
   void settle_one(PointStore& store, std::uint32_t place, const PoseEstimate& estimate);
 

@@ -34,7 +34,7 @@ void SheetDescent::begin_sweep(ModeProgram& program) {
 
 void SheetDescent::note(std::uint32_t index, const StoredPoint& point, const Pose& pose, const Measurement& m,
                         bool counts, ModeProgram& program) {
-  sheets_.try_place(index, m.projection.place);
+  sheets_.try_place(index, m.place);
   if (!counts) return;
   if (m.changed) {
     any_other_ = true;
@@ -47,8 +47,9 @@ void SheetDescent::note(std::uint32_t index, const StoredPoint& point, const Pos
 void SheetDescent::hold(std::uint32_t k, const Vec3& approach, const Measurement& m, ModeProgram& program) {
   Hold& hold = hold_[k];
   if (jumped(hold, m)) return program.refuse_pose();
-  const FacingRow facing = facing_row(m.projection, m.foot.normal, m.r, approach, problem_.frame);
-  const ExistenceRow row = existence_row(problem_.surface, m.projection, m.foot.normal, m.r, problem_.frame);
+  const Projection projection = m.projection();
+  const FacingRow facing = facing_row(projection, m.foot.normal, m.r, approach, problem_.frame);
+  const ExistenceRow row = existence_row(problem_.surface, projection, m.foot.normal, m.r, problem_.frame);
   const double missing = tuning::kLeastExistence - row.existence;
   if (!hold.known) {
     hold.known = true;

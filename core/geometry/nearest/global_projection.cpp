@@ -98,8 +98,7 @@ GlobalProjection search(const Surface& surface, const ProjectionQuery& query, co
 }  // namespace
 
 bool faces_probe(const Surface& surface, const Projection& projection, const Vec3& approach) {
-  if (approach.squaredNorm() < 0.5) return true;
-  return surface.outward(projection.place, projection.at).dot(approach) < 0.0;
+  return approach.squaredNorm() < 0.5 || faces_probe(surface.outward(projection.place, projection.at), approach);
 }
 
 GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query, const Projection* hint) {

@@ -46,7 +46,11 @@ inline constexpr std::uint32_t kMaxPieces = 8192;
 [[nodiscard]] GlobalProjection project_global(const Surface& surface, const ProjectionQuery& query,
                                               const Projection* hint);
 
-/// True where the outward normal of the projection faces the probe, or the approach is unknown.
+/// True where an outward normal of any length faces the probe, or the approach is unknown.
+[[nodiscard]] inline bool faces_probe(const Vec3& outward, const Vec3& approach) {
+  return approach.squaredNorm() < 0.5 || outward.dot(approach) < 0.0;
+}
+/// The same of a projection.
 [[nodiscard]] bool faces_probe(const Surface& surface, const Projection& projection, const Vec3& approach);
 
 }  // namespace bladefit

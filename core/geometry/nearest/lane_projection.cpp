@@ -1,5 +1,7 @@
 #include "core/geometry/nearest/lane_projection.hpp"
 
+#include <Eigen/Geometry>
+
 #include "core/geometry/nearest/newton_walk.hpp"
 #include "core/geometry/surface/trim.hpp"
 
@@ -57,5 +59,10 @@ Projection LaneProjections::projection(std::uint32_t lane) const {
 }
 
 Vec3 LaneProjections::point(std::uint32_t lane) const { return lane_of(walk_.r, lane); }
+Vec3 LaneProjections::surface_point(std::uint32_t lane) const { return lane_of(walk_.s, lane); }
+Vec3 LaneProjections::offset(std::uint32_t lane) const { return lane_of(walk_.offset, lane); }
+Vec3 LaneProjections::cross(std::uint32_t lane) const {
+  return lane_of(walk_.s_u, lane).cross(lane_of(walk_.s_v, lane));
+}
 
 }  // namespace bladefit

@@ -26,6 +26,10 @@ class LaneProjections {
   [[nodiscard]] const SurfacePlace& place(std::uint32_t lane) const { return place_[lane]; }
   [[nodiscard]] Projection projection(std::uint32_t lane) const;
   [[nodiscard]] Vec3 point(std::uint32_t lane) const;
+  /// q, r - q, and Su x Sv there.
+  [[nodiscard]] Vec3 surface_point(std::uint32_t lane) const;
+  [[nodiscard]] Vec3 offset(std::uint32_t lane) const;
+  [[nodiscard]] Vec3 cross(std::uint32_t lane) const;
   /// For take_rows(). Null where no lane is in use.
   [[nodiscard]] const LaneWalk* walk() const { return used_ < kLanes ? &walk_ : nullptr; }
 

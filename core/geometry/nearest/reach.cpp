@@ -16,18 +16,25 @@ bool well_inside(double x, double low, double high, std::uint8_t inset_low, std:
 
 }  // namespace
 
+bool nearest_by_reach(const Surface& surface, const SurfacePlace& foot, const Vec3& offset, const Vec3& cross) {
+  const ImageSpan& span = surface.span(foot.span);
+  const auto reach = static_cast<double>(span.reach[offset.dot(cross) < 0.0 ? 1 : 0]);
+  if (!(offset.squaredNorm() < reach * reach)) return false;
+  const SpanDomain d = surface.domain(foot.span);
+  if (!well_inside(foot.u, d.u_min, d.u_max, span.inset[kLowU], span.inset[kHighU]) ||
+      !well_inside(foot.v, d.v_min, d.v_max, span.inset[kLowV], span.inset[kHighV]))
+    return false;
+  return true;
+}
+
 ReachProof proof_by_reach(const Surface& surface, const Projection& foot) {
+  const Vec3 cross = foot.at.s_u.cross(foot.at.s_v);
+  if (!nearest_by_reach(surface, foot.place, foot.offset, cross)) return {};
   const ImageSpan& span = surface.span(foot.place.span);
-  const double distance = std::sqrt(foot.distance_squared());
-  const bool other_side = foot.offset.dot(foot.at.s_u.cross(foot.at.s_v)) < 0.0;
-  const auto reach = static_cast<double>(span.reach[other_side ? 1 : 0]);
-  if (!(distance < reach)) return {};
-  const SpanDomain d = surface.domain(foot.place.span);
-  if (!well_inside(foot.place.u, d.u_min, d.u_max, span.inset[kLowU], span.inset[kHighU]) ||
-      !well_inside(foot.place.v, d.v_min, d.v_max, span.inset[kLowV], span.inset[kHighV]))
-    return {};
+  const double square = foot.distance_squared(), distance = std::sqrt(square);
+  const auto reach = static_cast<double>(span.reach[foot.offset.dot(cross) < 0.0 ? 1 : 0]);
   const auto apart = static_cast<double>(span.apart);
-  return {true, std::sqrt(apart * apart * (1.0 - distance / reach) + distance * distance) - distance};
+  return {true, std::sqrt(apart * apart * (1.0 - distance / reach) + square) - distance};
 }
 
 }  // namespace bladefit

@@ -39,7 +39,7 @@ void expect_same(const Measurement& one, const Measurement& other) {
   EXPECT_EQ(one.foot.normal, other.foot.normal);
   EXPECT_EQ(one.foot.distance, other.foot.distance);
   EXPECT_EQ(one.foot.kind, other.foot.kind);
-  EXPECT_EQ(one.projection.place.span, other.projection.place.span);
+  EXPECT_EQ(one.place.span, other.place.span);
   EXPECT_EQ(one.searched, other.searched);
   EXPECT_EQ(one.changed, other.changed);
   EXPECT_EQ(one.ranked, other.ranked);
@@ -52,7 +52,7 @@ TEST(FootFinder, FindsPointsTogetherToTheBitsOfEachAlone) {
   const FootFinder& finder = found.parts->finder;
   std::uint32_t first = 0;
   for (std::uint32_t count = 0; count <= 9; ++count) {
-    for (const Search search : {Search::if_doubtful, Search::past_margin, Search::always}) {
+    for (const Search search : {Search::if_doubtful, Search::past_margin, Search::keep, Search::always}) {
       std::vector<std::uint32_t> indices(count), order;
       std::iota(indices.rbegin(), indices.rend(), first);  // not as they are stored
       finder.find_each(

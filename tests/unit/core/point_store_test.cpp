@@ -94,7 +94,7 @@ TEST(PointStore, RecordsTheFootAndKeepsTheRunnerUpUnlessAnotherIsKnown) {
   point.ranked_at = {1, 2, 3};
   Measurement m;
   m.foot = foot_at(0.3, 0.1);
-  m.projection.place.span = 7;
+  m.place.span = 7;
   m.r = {4, 5, 6};
   m.runner_up.margin = 9.0;
   store.record(point, m, 11);

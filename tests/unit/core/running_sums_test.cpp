@@ -125,7 +125,7 @@ QuadraticModel from_scratch(LocalizerParts& p) {
   for (std::uint32_t i = 0; i < p.store.size(); ++i) {
     const Measurement m = p.finder.find(p.store[i], p.estimate.pose(), Search::always);
     if (p.selection.left_out(p.store[i], m.foot)) continue;
-    const DistanceRow row = distance_row(m.projection, m.foot, m.r, Vec6::Zero(), p.problem.frame);
+    const DistanceRow row = distance_row(m.projection(), m.foot, m.r, Vec6::Zero(), p.problem.frame);
     model.add(row, Vec6::Zero(), p.store[i].weight, loss_terms(Loss::none, 0.0, m.foot.distance));
   }
   return model;

@@ -193,7 +193,7 @@ TEST(FacingRow, AgreesWithDifferences) {
     const auto facing_at = [&](const Vec6& x) {
       const Pose pose = moved(d.pose, x, frame);
       const Measurement m = d.parts->finder.find_from({place_of(point), Search::keep}, point, pose);
-      return facing_row(m.projection, m.foot.normal, m.r, pose.rotation * point.approach, frame);
+      return facing_row(m.projection(), m.foot.normal, m.r, pose.rotation * point.approach, frame);
     };
     if (d.parts->finder.find(point, d.pose, Search::keep).foot.kind != FootKind::interior) continue;
     const FacingRow row = facing_at(Vec6::Zero());
@@ -215,10 +215,10 @@ TEST(ExistenceRow, AgreesWithDifferences) {
     StoredPoint point = d.parts->store[i];
     const Measurement there = d.parts->finder.find(point, d.pose, Search::keep);
     if (there.foot.kind != FootKind::interior) continue;
-    const Vec3 foot = there.projection.at.s, normal = there.foot.normal;
+    const Vec3 foot = there.foot.point, normal = there.foot.normal;
     const auto row_at = [&](double height, const Vec6& x) {
       const Vec3 r = foot + height * normal;
-      Projection projection = project_local(problem.surface, r, there.projection.place);
+      Projection projection = project_local(problem.surface, r, there.place);
       const Vec3 moved_r = apply(moved(Pose(), x, problem.frame), r);
       projection = project_local(problem.surface, moved_r, projection.place);
       return existence_row(problem.surface, projection, foot_of(problem.surface, projection, 0.0).normal, moved_r,
