@@ -149,7 +149,7 @@ Host::~Host() {
 Failure Host::start() {
   running_ = std::make_unique<Running>();
   Running& running = *running_;
-  const SessionIdentity identity{design_.header().crc32,
+  const SessionIdentity identity{design_.identity(),
                                  config_digest(settings_.localizer, settings_.path_refine_points)};
   if (const Failure error = running.make_localizer(settings_.localizer, design_)) return error;
   if (const Failure error = running.open_journal(settings_, identity)) return error;

@@ -1,6 +1,8 @@
 // Points that never arrive are known to the end: in the verdict, the result, a resumed session and the report.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/hil/session.hpp"
 
 namespace bladefit::hil {
@@ -49,6 +51,22 @@ TEST(RunLosses, AreNeverInTolerance) {
   Process report({BLADEFIT_COMMAND, "report", session, "--format", "html", "-o", scratch / "page.html"});
   EXPECT_EQ(report.exit_code(), 0) << report.err();
   EXPECT_NE(read_whole(scratch / "page.html").find("never arrived"), std::string::npos);
+}
+
+/// The image holds what leaves out searches, which the file that it was made from does not.
+TEST(RunLosses, ASessionOnADesignFileGoesOnWithItsImage) {
+  const ScratchFolder scratch;
+  const std::string image = scratch / "blade.bfd";
+  Process compile({BLADEFIT_COMMAND, "compile", kBlade, "-o", image});
+  ASSERT_EQ(compile.exit_code(), 0) << compile.err();
+  const SimulatedMachine machine(machine_options(Link::modbus_tcp, "0", kFewPoints, {"--rate", "0"}));
+  std::vector<std::string> options =
+      lenient(source_of(Link::modbus_tcp, machine.address()), scratch / "session", scratch / "result.json");
+  Process begun(options);
+  ASSERT_EQ(begun.exit_code(), 0) << begun.err();
+  std::replace(options.begin(), options.end(), std::string(kBlade), image);
+  Process resumed(options);
+  EXPECT_EQ(resumed.exit_code(), 0) << resumed.err();
 }
 
 TEST(RunLosses, NothingLostIsInTolerance) {

@@ -16,6 +16,7 @@
 #include "core/geometry/surface/surface.hpp"
 #include "tools/commands/design_list.hpp"
 #include "tools/commands/design_notes.hpp"
+#include "tools/commands/progress_line.hpp"
 #include "tools/design/blade_choice.hpp"
 #include "tools/design/image/c_array.hpp"
 #include "tools/design/image/reach.hpp"
@@ -188,7 +189,10 @@ void compile(const CompileOptions& options) {
   const DesignChoice choice = choice_of(options);
   check_outputs(options);
   LoadedDesign design = load_design(paths_of(options), choice);
-  mark_reach(design.image);
+  ProgressLine line;
+  mark_reach(design.image, [&line](std::uint32_t done, std::size_t spans) {
+    line.tell(fmt::format("proving how far the spans reach: {} of {}", done, spans));
+  });
   const DesignImage image = open_compiled(options, design);
   write_outputs(options, design.image);
   print_summary(options, design, image);

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/commands/progress_line.hpp"
 #include "tools/files/output_file.hpp"
-#include "tools/reproduce/progress_line.hpp"
 #include "tools/reproduce/start_costs.hpp"
 #include "tools/reproduce/table_json.hpp"
 #include "tools/reproduce/table_text.hpp"

@@ -161,7 +161,7 @@ std::vector<std::byte> read_session_design(const std::string& directory, const S
   std::vector<std::byte> image(bytes, bytes + text->size());
   DesignImage design;
   const bool valid = DesignImage::open(image, design) == Status::ok;
-  if (valid && design.header().crc32 == identity.design_crc) return image;
+  if (valid && design.identity() == identity.design_crc) return image;
   throw ToolError(
       fmt::format("{}: {}; run the session again with the same --session, or remove the file: the report is "
                   "then without pictures of the blade",

@@ -175,6 +175,16 @@ constexpr std::uint32_t swapped(std::uint32_t word) {
   return word << 24U | (word & 0xFF00U) << 8U | (word >> 8U & 0xFF00U) | word >> 24U;
 }
 
+/// Where the field crc32 ends.
+constexpr std::size_t kCrcEnd = offsetof(ImageHeader, crc32) + sizeof(std::uint32_t);
+
+/// CRC-32 of an image to there, the field taken as 0; 0 where it is shorter.
+std::uint32_t crc_before_its_end(std::span<const std::byte> image) {
+  constexpr std::array<std::byte, sizeof(std::uint32_t)> zero{};
+  if (image.size() < kCrcEnd) return 0;
+  return crc32(zero, crc32(image.first(kCrcEnd - zero.size())));
+}
+
 Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
   if (image_crc(bytes) != h.crc32) return Status::bad_crc;
   const bool arrays = array_fits<ImagePatch>(h.patches_offset, h.patch_count, h.total_size) &&
@@ -196,11 +206,20 @@ Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
 }  // namespace
 
 std::uint32_t image_crc(std::span<const std::byte> image) {
-  constexpr std::size_t field = offsetof(ImageHeader, crc32);
-  constexpr std::array<std::byte, sizeof(std::uint32_t)> zero{};
-  if (image.size() < field + zero.size()) return 0;
-  const std::uint32_t before = crc32(zero, crc32(image.first(field)));
-  return crc32(image.subspan(field + zero.size()), before);
+  const std::uint32_t before = crc_before_its_end(image);
+  return image.size() < kCrcEnd ? 0 : crc32(image.subspan(kCrcEnd), before);
+}
+
+std::uint32_t DesignImage::identity() const {
+  const std::span image(reinterpret_cast<const std::byte*>(header_), static_cast<std::size_t>(header_->total_size));
+  const std::size_t spans = static_cast<std::size_t>(header_->spans_offset), after = spans + spans_.size_bytes();
+  std::uint32_t crc = crc32(image.subspan(kCrcEnd, spans - kCrcEnd), crc_before_its_end(image));
+  for (ImageSpan span : spans_) {
+    span.reach[0] = span.reach[1] = span.apart = 0.0F;
+    std::fill(std::begin(span.inset), std::end(span.inset), std::uint8_t{0});
+    crc = crc32(std::as_bytes(std::span(&span, 1)), crc);
+  }
+  return crc32(image.subspan(after), crc);
 }
 
 Status DesignImage::open_head(std::span<const std::byte> bytes, const ImageHeader*& header) {

@@ -159,6 +159,10 @@ class DesignImage {
   /// constant.
   [[nodiscard]] static Status open_head(std::span<const std::byte> bytes, const ImageHeader*& header);
 
+  /// CRC-32 of everything that a fit depends on: the same with and without reach, which leaves out searches alone.
+  /// Cost: linear in the size.
+  [[nodiscard]] std::uint32_t identity() const;
+
   [[nodiscard]] const ImageHeader& header() const { return *header_; }
   [[nodiscard]] std::span<const ImagePatch> patches() const { return patches_; }
   [[nodiscard]] std::span<const ImageSpan> spans() const { return spans_; }

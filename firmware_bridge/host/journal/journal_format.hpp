@@ -18,7 +18,7 @@ inline constexpr std::uint32_t kOldestJournalVersion = 5;
 
 /// What a session is bound to: its points mean something for this design and these settings only.
 struct SessionIdentity {
-  std::uint32_t design_crc = 0;     ///< crc32 field of the design image
+  std::uint32_t design_crc = 0;     ///< DesignImage::identity()
   std::uint64_t config_digest = 0;  ///< config_digest(): of every setting
 };
 

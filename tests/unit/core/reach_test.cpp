@@ -106,6 +106,15 @@ INSTANTIATE_TEST_SUITE_P(Of, ReachInAFit,
                          ::testing::Combine(::testing::Values("arl_fan", "dtmb4119", "pnsy_3patch"),
                                             ::testing::Values(FitMode::least_squares, FitMode::min_tolerance)));
 
+TEST(ImageIdentity, IsTheSameWithoutReach) {
+  const CompiledDesign& design = reference_design("dtmb4119");
+  const CompiledDesign none = without_reach(design);
+  EXPECT_NE(none.image().header().crc32, design.image().header().crc32);
+  EXPECT_EQ(none.image().identity(), design.image().identity());
+  EXPECT_EQ(none.image().identity(), none.image().header().crc32);
+  EXPECT_NE(reference_design("arl_fan").image().identity(), design.image().identity());
+}
+
 /// A foot at a hand's breadth is told of, one beyond the reach, one at the side of a span and one without reach are
 /// not.
 TEST(ProofByReach, IsOfWhatLiesWithinReachAlone) {

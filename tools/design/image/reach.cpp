@@ -21,15 +21,16 @@ float rounded_down(double x) {
 
 }  // namespace
 
-void mark_reach(std::vector<std::byte>& image) {
+void mark_reach(std::vector<std::byte>& image, const std::function<void(std::uint32_t done, std::size_t spans)>& tell) {
   const DesignImage opened = open_new_image(image);
   const Surface surface(opened);
   const ReachDesign design(surface);
   std::vector<ImageSpan> spans(opened.spans().begin(), opened.spans().end());
   std::atomic<std::uint32_t> next{0};
-  const auto work = [&] {
+  const auto work = [&](bool tells) {
     PartCache parts(surface);
     for (std::uint32_t k = next++; k < spans.size(); k = next++) {
+      if (tells) tell(k, spans.size());
       const SpanReach proven = prove_reach(design, parts, k);
       for (std::size_t side = 0; side < 2; ++side) spans[k].reach[side] = rounded_down(proven.reach[side]);
       spans[k].apart = rounded_down(proven.apart);
@@ -38,8 +39,8 @@ void mark_reach(std::vector<std::byte>& image) {
   };
   std::vector<std::future<void>> others;
   for (unsigned k = 1; k < std::thread::hardware_concurrency(); ++k)
-    others.push_back(std::async(std::launch::async, work));
-  work();
+    others.push_back(std::async(std::launch::async, work, false));
+  work(tell != nullptr);
   for (std::future<void>& other : others) other.get();
   std::memcpy(image.data() + opened.header().spans_offset, spans.data(), spans.size() * sizeof(ImageSpan));
   seal_image(image);
