@@ -31,7 +31,7 @@ constexpr bool in_order() {
   }
   return true;
 }
-static_assert(in_order());
+static_assert(std::size(kModes) == kFitModeWords.size() && in_order());
 
 }  // namespace
 
