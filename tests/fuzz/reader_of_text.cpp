@@ -81,7 +81,7 @@ Answer read_serial(std::string_view bytes) {
 }
 
 /// Gives every line that has a check sum the right one.
-void mend_lines(std::string& bytes) {
+void repair_lines(std::string& bytes) {
   for (std::size_t begin = bytes.find('$'); begin != std::string::npos; begin = bytes.find('$', begin + 1)) {
     const std::size_t star = bytes.find('*', begin);
     if (star == std::string::npos || star + 5 > bytes.size()) return;
@@ -117,7 +117,7 @@ Answer read_pairs(std::string_view bytes) {
 
 const Reader kPoints{"points", read_points, nullptr};
 const Reader kReadout{"readout", read_readout, nullptr};
-const Reader kSerial{"serial", read_serial, mend_lines};
+const Reader kSerial{"serial", read_serial, repair_lines};
 const Reader kDeviceFile{"device", read_device, nullptr};
 const Reader kSessionFile{"session", read_session, nullptr};
 const Reader kStartPairs{"pairs", read_pairs, nullptr};

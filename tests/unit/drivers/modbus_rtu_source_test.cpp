@@ -158,7 +158,7 @@ TEST(ModbusRtu, ReadsRecordsOnASlowLine) {
   EXPECT_EQ(collect_checked(*source, 7), counted(10, 16));
 }
 
-TEST(ModbusRtuErrors, NameTheDeviceAndTheMend) {
+TEST(ModbusRtuErrors, NameTheDeviceAndTheFix) {
   RtuMachine machine;
   const auto opened = [](const ModbusSettings& settings) { return make_source(settings)->open(0, 0).message; };
   ModbusSettings slow = machine.settings();
