@@ -87,7 +87,7 @@ class SheetDescent {
   std::array<Hold, kMost> hold_{};
   bool any_other_ = false;
   bool unproven_ = true;  ///< no pose is proven yet
-  bool free_ = false;  ///< nothing is held any more
+  bool free_ = false;     ///< nothing is held any more
   std::uint32_t rounds_ = 0;
   Pose proven_pose_;
   double first_merit_ = 0, proven_merit_ = 0;
