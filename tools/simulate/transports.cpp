@@ -43,6 +43,7 @@ constexpr std::array<TransportRow, 3> kTransports{
 
 std::vector<std::string> transport_words() {
   std::vector<std::string> words;
+  words.reserve(kTransports.size());
   for (const TransportRow& row : kTransports) words.emplace_back(row.word);
   return words;
 }
