@@ -53,12 +53,7 @@ void apply_mpe(const S& s, double /*mm*/, C& c) {
 // An option is applied after those above it.
 constexpr std::array kOptions{
     FitOption{"mode", ChoiceOption<FitMode>{&S::mode, kFitModeWords},
-              [](const S& s, double, C& c) { c.mode = *s.mode; },
-              "what the fit minimises: least_squares (default): the sum of squared distances; minimax: the largest "
-              "distance; range: the largest less the smallest signed distance; min_tolerance: the leading-edge "
-              "tolerance that can just be met, with ratio times it on the rest; constrained: the sum of squares with "
-              "every distance within its tolerance",
-              "\"least_squares\"", true},
+              [](const S& s, double, C& c) { c.mode = *s.mode; }, kFitModeHelp, "\"least_squares\"", true},
     FitOption{"leading_edge", ZonesOption{&S::leading_edge}, apply_boxes,
               "leading-edge region: [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6, a box between two isoparameter lines; "
               "PATCH counts from 0; or auto:5mm, auto:3%: as far along the sections on either side of the ridge of "

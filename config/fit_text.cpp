@@ -42,8 +42,8 @@ Failure parse_lock(std::string_view text, std::uint8_t& locked) {
     rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
     const auto* known = std::find(kDegreesOfFreedom.begin(), kDegreesOfFreedom.end(), name);
     if (known == kDegreesOfFreedom.end()) {
-      return bad_input(
-          fmt::format("'{}' is no degree of freedom; write some of tx,ty,tz,rx,ry,rz with commas between them", name));
+      return bad_input(fmt::format(
+          "'{}' is not a degree of freedom; write some of tx,ty,tz,rx,ry,rz with commas between them", name));
     }
     read |= 1U << static_cast<unsigned>(known - kDegreesOfFreedom.begin());
   }
@@ -53,10 +53,10 @@ Failure parse_lock(std::string_view text, std::uint8_t& locked) {
 }
 
 Failure parse_leading_edge(std::string_view text, ParameterBox& box) {
-  const Failure wrong = bad_input(
-      fmt::format("'{}' is no leading-edge box; write [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6 with limits from 0 to 1, "
-                  "the lower first, or auto:5mm, auto:3%",
-                  text));
+  const Failure wrong = bad_input(fmt::format(
+      "'{}' is not a leading-edge box; write [PATCH:]u:0.4:0.6 or [PATCH:]v:0.4:0.6 with limits from 0 to 1, "
+      "the lower first, or auto:5mm, auto:3%",
+      text));
   std::string_view rest = text;
   ParameterBox read;
   std::string_view part = take_part(rest);
@@ -81,10 +81,10 @@ Failure parse_edge_zone(std::string_view text, EdgeZone& zone) {
     zone = read;
     return {};
   }
-  const Failure wrong = bad_input(
-      fmt::format("'{}' is no zone; write auto: with a length above 0 and its unit, auto:5mm or auto:0.2in, or with a "
-                  "share of the chord below 50 %, auto:3%",
-                  text));
+  const Failure wrong = bad_input(fmt::format(
+      "'{}' is not a zone; write auto: with a length above 0 and its unit, auto:5mm or auto:0.2in, or with a "
+      "share of the chord below 50 %, auto:3%",
+      text));
   const std::string_view amount = text.substr(kAuto.size());
   const std::size_t end = std::min(amount.find_first_not_of("0123456789.eE+-"), amount.size());
   const std::optional<double> number = parse_finite(amount.substr(0, end));
@@ -109,7 +109,7 @@ Failure parse_place(std::string_view text, Vec3& place) {
     const std::size_t comma = rest.find(',');
     const std::optional<double> number = parse_finite(trimmed(rest.substr(0, comma)));
     if (!number || (comma == std::string_view::npos) != (k == 2))
-      return bad_input(fmt::format("'{}' is no place; write x,y,z: three numbers with commas between them", text));
+      return bad_input(fmt::format("'{}' is not a place; write x,y,z: three numbers with commas between them", text));
     read[k] = *number;
     rest.remove_prefix(k == 2 ? rest.size() : comma + 1);
   }
@@ -119,7 +119,7 @@ Failure parse_place(std::string_view text, Vec3& place) {
 
 Failure parse_mpe(std::string_view text, ProbeError& error) {
   const Failure wrong =
-      bad_input(fmt::format("'{}' is no largest permissible error; write A+L/K, for example 1.9+L/300: A in "
+      bad_input(fmt::format("'{}' is not a largest permissible error; write A+L/K, for example 1.9+L/300: A in "
                             "micrometres, L in mm, each above 0",
                             text));
   const std::size_t plus = text.find('+');
@@ -140,7 +140,7 @@ Failure parse_mpe(std::string_view text, ProbeError& error) {
 
 Failure parse_window(std::string_view text, ParameterWindow& window) {
   if (parse_interval(text, window.low, window.high)) return {};
-  return bad_input(fmt::format("'{}' is no window; write 0.05:0.95, limits from 0 to 1, the lower first", text));
+  return bad_input(fmt::format("'{}' is not a window; write 0.05:0.95, limits from 0 to 1, the lower first", text));
 }
 
 Failure parse_axis(std::string_view text, ShaftAxis& axis) {
@@ -150,7 +150,7 @@ Failure parse_axis(std::string_view text, ShaftAxis& axis) {
     return {};
   }
   const Failure wrong = bad_input(fmt::format(
-      "'{}' is no axis; write x, y, z, or six numbers x0,y0,z0,i,j,k: a point of it and its direction", text));
+      "'{}' is not an axis; write x, y, z, or six numbers x0,y0,z0,i,j,k: a point of it and its direction", text));
   Vec6 numbers;
   std::string_view rest = text;
   for (int k = 0; k < 6; ++k) {

@@ -19,7 +19,7 @@ Failure parse_outward(std::string_view text, OutwardChoice& choice) {
     const std::string_view side = colon == std::string_view::npos ? "" : entry.substr(colon + 1);
     if (colon == 0 || (side != "+" && side != "-")) {
       return bad_input(
-          fmt::format("'{}' is no side; say auto, +, - or a side for each face, for example SUCTION:+,3:-", entry));
+          fmt::format("'{}' is not a side; say auto, +, - or a side for each face, for example SUCTION:+,3:-", entry));
     }
     list.faces.push_back({std::string(entry.substr(0, colon)), side == "+"});
   }

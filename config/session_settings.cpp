@@ -68,13 +68,14 @@ void read_panel(TableReader& table, PanelSettings& panel) {
   table.read_choice<WordOrder>("word_order", order, kWordOrders);
   if (table.has("word_order")) panel.low_word_first = order == WordOrder::low_first;
   table.read("infinity", panel.infinity);
-  if (panel.infinity && std::isnan(*panel.infinity)) table.fail("infinity", "is no number; give one such as 0 or 9999");
+  if (panel.infinity && std::isnan(*panel.infinity))
+    table.fail("infinity", "is not a number; give one such as 0 or 9999");
   table.read("linger", panel.linger, NumberRange{0, kLongestIdle});
   table.read("allow", panel.allow);
   const std::vector<std::string> allowed = panel.allow.value_or(std::vector<std::string>());
   const auto wrong = std::find_if_not(allowed.begin(), allowed.end(), is_numeric_address);
   if (wrong != allowed.end())
-    return table.fail("allow", "'" + *wrong + "' is no numeric address; write for example \"192.168.0.7\"");
+    return table.fail("allow", "'" + *wrong + "' is not a numeric address; write for example \"192.168.0.7\"");
   table.read("http", panel.http);
   table.read_path("http_token_file", panel.http_token_file);
   table.finish();

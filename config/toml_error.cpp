@@ -77,7 +77,7 @@ std::string_view cure_of_line(std::string_view line, const toml::parse_error& er
 }
 
 std::string described(std::string_view line, const toml::parse_error& error) {
-  if (says(error, "utf-8")) return "a byte that is no UTF-8 text; save the file as UTF-8";
+  if (says(error, "utf-8")) return "a byte that is not UTF-8 text; save the file as UTF-8";
   if (has_control_character(line)) return "a control character; save the file as plain text and delete the character";
   if (says(error, "nested value depth")) return "lists or tables nested too deep; no value here is so deep, correct it";
   if (says(error, "redefine") || says(error, "cannot insert"))

@@ -103,7 +103,7 @@ std::string toml_text_fault(std::string_view text) {
   }
   if (const std::size_t line = line_of_foreign_letter(text); line != 0) {
     return fmt::format(
-        "{}: a letter that is no plain one stands outside of quotes; names here have plain letters, texts stand in "
+        "{}: a letter that is not a plain one stands outside of quotes; names here have plain letters, texts stand in "
         "\"\"",
         line);
   }

@@ -28,7 +28,7 @@ Failure parse_band(std::string_view text, RadiusBand& band) {
     band = {*low, *high};
     return {};
   }
-  return bad_input(fmt::format("'{} {}' is no band; write r/R 0.7:1.0 with limits from 0 to {}, the lower first",
+  return bad_input(fmt::format("'{} {}' is not a band; write r/R 0.7:1.0 with limits from 0 to {}, the lower first",
                                kBandWord, text, kLargestBand));
 }
 

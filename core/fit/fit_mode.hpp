@@ -19,6 +19,13 @@ enum class FitMode : std::uint8_t {
 inline constexpr std::array<std::string_view, 5> kFitModeWords = {"least_squares", "minimax", "range", "min_tolerance",
                                                                   "constrained"};
 
+/// What each mode minimises, for whoever sets one.
+inline constexpr std::string_view kFitModeHelp =
+    "what the fit minimises: least_squares (default): the sum of squared distances; minimax: the largest "
+    "distance; range: the largest less the smallest signed distance; min_tolerance: the leading-edge "
+    "tolerance that can just be met, with ratio times it on the rest; constrained: the sum of squares with "
+    "every distance within its tolerance";
+
 constexpr std::string_view word_of(FitMode mode) { return kFitModeWords[static_cast<std::size_t>(mode)]; }
 
 /// Points that prove an optimum of the maximum kind: at the pose their |d| / w is the value, and no motion lessens all

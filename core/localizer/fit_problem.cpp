@@ -8,9 +8,6 @@
 namespace bladefit {
 namespace {
 
-/// Of the squared distance of a point, and its inverse.
-constexpr double kLargestWeight = 1e12;
-
 bool finite(const std::array<double, 3>& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
@@ -20,7 +17,7 @@ bool finite(const std::array<double, 3>& a) {
 FitProblem::FitProblem(const DesignImage& design, const LocalizerConfig& wanted) : surface(design), config(wanted) {
   frame.pivot = surface.middle();
   frame.length = surface.half_diagonal();
-  if (config.determined_mm == 0.0) config.determined_mm = 1e-3 * frame.length;
+  if (config.determined_mm == 0.0) config.determined_mm = tuning::kDetermined * frame.length;
 }
 
 double FitProblem::reach() const { return tuning::kLongestStep * frame.length; }
@@ -40,8 +37,10 @@ Status FitProblem::check(const ProbePoint& point) const {
   const double length = to_vec3(point.approach).norm();
   const double off = (apply(config.start, to_vec3(point.position)) - frame.pivot).norm();
   if (off > tuning::kFarthestPoint * frame.length) return Status::out_of_range;
-  if (!(point.weight >= 1.0 / kLargestWeight && point.weight <= kLargestWeight)) return Status::out_of_range;
-  if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > 1e-3)) return Status::out_of_range;
+  if (!(point.weight >= 1.0 / tuning::kLargestWeight && point.weight <= tuning::kLargestWeight))
+    return Status::out_of_range;
+  if (point.sequence == 0 || (length != 0.0 && std::abs(length - 1.0) > tuning::kUnitLength))
+    return Status::out_of_range;
   return Status::ok;
 }
 

@@ -129,7 +129,7 @@ ModeFit::Next ModeFit::at_optimum(bool concluded, ModeOptimum& optimum) {
   optimum.stationarity = program_.stationarity();
   optimum.held_feet = program_.held_feet();
   const ModeRow& program = mode_row(program_.mode());
-  const bool last = program.mode == plan_.row().mode;
+  const bool last = program.mode == plan_.row().last;
   const double value = program_.value();
   if (program.value_is_tolerance) optimum.smallest_tolerance = value * plan_.unit();
   if (!last && plan_.goes_on(value)) return begin_last_program();
@@ -140,9 +140,9 @@ ModeFit::Next ModeFit::at_optimum(bool concluded, ModeOptimum& optimum) {
 
 /// A range goes on from the least-squares optimum where its own is smaller there than at the minimax.
 ModeFit::Next ModeFit::begin_last_program() {
-  const FitMode mode = plan_.row().mode;
-  if (mode != FitMode::range || program_.range() <= squares_range_) return begin_program(mode, true);
-  return begin_program_at(mode, starts_.centre());
+  const FitMode last = plan_.row().last;
+  if (last != FitMode::range || program_.range() <= squares_range_) return begin_program(last, true);
+  return begin_program_at(last, starts_.centre());
 }
 
 ModeFit::Next ModeFit::begin_starts(double own_value, bool concluded) {

@@ -10,17 +10,19 @@ namespace {
 
 using enum FitMode;
 using Then = ModeRow::Then;
-using Seeds = ModeRow::Seeds;
+using Compared = ModeRow::Compared;
 
 /// In the order of FitMode. A range begins with the minimax, from where it meets its best optimum more often: with few
 /// points it has several. A constrained fit begins with the smallest feasible tolerance.
 constexpr ModeRow kModes[] = {
-    // mode, first program, sought again, then, seeds, value, certificate, value is a tolerance
-    {least_squares, least_squares, least_squares, Then::ends, Seeds::by_distance, false, false, false},
-    {minimax, minimax, minimax, Then::ends, Seeds::by_distance, true, true, false},
-    {range, minimax, range, Then::always, Seeds::by_range, true, false, false},
-    {min_tolerance, min_tolerance, min_tolerance, Then::ends, Seeds::by_bound, true, true, true},
-    {constrained, min_tolerance, min_tolerance, Then::if_feasible, Seeds::by_bound, false, false, false},
+    // mode, first program, last, sought again, then, compared, value, certificate, value is a tolerance
+    {least_squares, least_squares, least_squares, least_squares, Then::ends, Compared::by_distance, false, false,
+     false},
+    {minimax, minimax, minimax, minimax, Then::ends, Compared::by_distance, true, true, false},
+    {range, minimax, range, range, Then::always, Compared::by_range, true, false, false},
+    {min_tolerance, min_tolerance, min_tolerance, min_tolerance, Then::ends, Compared::by_bound, true, true, true},
+    {constrained, min_tolerance, constrained, min_tolerance, Then::if_feasible, Compared::by_bound, false, false,
+     false},
 };
 
 constexpr bool in_order() {
@@ -29,7 +31,7 @@ constexpr bool in_order() {
   }
   return true;
 }
-static_assert(in_order());
+static_assert(std::size(kModes) == kFitModeWords.size() && in_order());
 
 }  // namespace
 

@@ -8,12 +8,14 @@ namespace bladefit {
 /// What a mode is. One row a mode stands in mode_plan.cpp.
 struct ModeRow {
   FitMode mode;
+  // Programs are named by the mode that they were made for; a mode may share those of another.
   FitMode first;   ///< the program that follows the least-squares fit
+  FitMode last;    ///< the program that it ends with
   FitMode sought;  ///< the program that further starts are made with
-  enum class Then : std::uint8_t { ends, always, if_feasible } then;  ///< when the program `mode` follows the first one
-  /// How points are compared when a stream's program is begun: by |d|, by |d| over the bound, or by how far they are
-  /// from the middle of all distances.
-  enum class Seeds : std::uint8_t { by_distance, by_bound, by_range } seeds;
+  enum class Then : std::uint8_t { ends, always, if_feasible } then;  ///< when the last program follows the first one
+  /// How its programs compare points: by |d|, by |d| over the bound, or by how far they are from the middle of all
+  /// distances.
+  enum class Compared : std::uint8_t { by_distance, by_bound, by_range } compared;
   bool has_value;           ///< its optimum is a length
   bool has_certificate;     ///< that the points of the certificate prove
   bool value_is_tolerance;  ///< and it is the smallest feasible tolerance of the leading edge
@@ -31,7 +33,7 @@ class ModePlan {
   [[nodiscard]] const ModeRow& row() const { return row_; }
   /// Whether the bounds are wanted ones, so that they may be infeasible.
   [[nodiscard]] bool may_be_infeasible() const { return row_.then == ModeRow::Then::if_feasible; }
-  /// Whether the program `mode` follows after the first one has found this value.
+  /// Whether the last program follows after the first one has found this value.
   [[nodiscard]] bool goes_on(double value) const;
 
   /// w of a foot: its tolerance [mm] in a constrained fit; else 1 at the leading edge and the ratio on the rest. 0: its

@@ -37,8 +37,15 @@ double ModeProgram::assign_regions(PointStore& store, VerdictBook& verdicts) {
 }
 
 double ModeProgram::unit_of(std::uint32_t index) const {
-  if (fit_.mode() == FitMode::range) return 0.5;
-  return fit_.mode() == FitMode::minimax ? 1.0 : fit_.weight(index);
+  switch (mode_row(fit_.mode()).compared) {
+    case ModeRow::Compared::by_range:
+      return 0.5;
+    case ModeRow::Compared::by_distance:
+      return 1.0;
+    case ModeRow::Compared::by_bound:
+      break;
+  }
+  return fit_.weight(index);
 }
 
 double ModeProgram::range() const {
@@ -57,7 +64,7 @@ bool ModeProgram::bounds_hold(const PointStore& store, const PointSelection& sel
 
 ModeProgram::Regions ModeProgram::follow_feet(PointStore& store, VerdictBook& verdicts) {
   if (problem_.config.regions == RegionPolicy::fixed) return Regions::at_rest;
-  const bool weighted = fit_.mode() == FitMode::min_tolerance || fit_.mode() == FitMode::constrained;
+  const bool weighted = mode_row(fit_.mode()).compared == ModeRow::Compared::by_bound;
   if (assign_regions(store, verdicts) <= tuning::kWeightsAtRest || !weighted) return Regions::at_rest;
   return ++region_rounds_ >= tuning::kRegionRounds ? Regions::restless : Regions::changed;
 }

@@ -20,7 +20,7 @@ bool SheetDescent::Points::add(std::uint32_t i) {
 void SheetDescent::begin(const PointStore& store, bool there) {
   for (std::uint32_t i = 0; i < store.size(); ++i) sheets_.keep(i, place_of(store[i]));
   if (!there) held_.count = 0;
-  fresh_ = true;
+  unproven_ = true;
   free_ = false;
   rounds_ = 0;
 }
@@ -93,11 +93,11 @@ void SheetDescent::accept(std::uint32_t count) {
 }
 
 SheetDescent::Outcome SheetDescent::weigh(bool proof, double merit, const Pose& pose, std::uint32_t count) {
-  if (!proof && !fresh_) return Outcome::same;
-  if (fresh_) first_merit_ = merit;
-  const bool counts = fresh_ || merit <= proven_merit_ * (1.0 + tuning::kMeritRounding);
+  if (!proof && !unproven_) return Outcome::same;
+  if (unproven_) first_merit_ = merit;
+  const bool counts = unproven_ || merit <= proven_merit_ * (1.0 + tuning::kMeritRounding);
   if (counts) {
-    fresh_ = false;
+    unproven_ = false;
     proven_pose_ = pose;
     proven_merit_ = merit;
     sheets_.prove(count);

@@ -86,8 +86,8 @@ class SheetDescent {
   Points held_;    ///< whose foot is held to face its probe, or to be averted no farther
   std::array<Hold, kMost> hold_{};
   bool any_other_ = false;
-  bool fresh_ = true;  ///< no pose is proven yet
-  bool free_ = false;  ///< nothing is held any more
+  bool unproven_ = true;  ///< no pose is proven yet
+  bool free_ = false;     ///< nothing is held any more
   std::uint32_t rounds_ = 0;
   Pose proven_pose_;
   double first_merit_ = 0, proven_merit_ = 0;

@@ -29,11 +29,11 @@ void StreamOptimum::Seeds::offer(std::uint32_t i, double how_far) {
 
 StreamOptimum::Seeds StreamOptimum::seeds(const PointStore& store, std::uint32_t stride) const {
   Seeds out;
-  const ModeRow::Seeds order = plan_.row().seeds;
-  const double middle = order == ModeRow::Seeds::by_range ? middle_distance(store, stride) : 0.0;
+  const ModeRow::Compared compared = plan_.row().compared;
+  const double middle = compared == ModeRow::Compared::by_range ? middle_distance(store, stride) : 0.0;
   for (std::uint32_t i = 0; i < store.size(); i += stride) {
     const Foot& foot = store[i].foot;
-    const double weight = order == ModeRow::Seeds::by_bound ? plan_.weight(foot) : 1.0;
+    const double weight = compared == ModeRow::Compared::by_bound ? plan_.weight(foot) : 1.0;
     if (selection_.left_out(store[i], foot) || weight == 0.0) continue;
     out.offer(i, std::abs(foot.distance - middle) / weight);
   }
@@ -41,7 +41,7 @@ StreamOptimum::Seeds StreamOptimum::seeds(const PointStore& store, std::uint32_t
 }
 
 void StreamOptimum::begin(const PointStore& store, const Pose& pose, std::uint32_t stride) {
-  program_.begin(plan_.row().mode, pose, problem_.reach());
+  program_.begin(plan_.row().last, pose, problem_.reach());
   if (plan_.may_be_infeasible()) feasibility_.begin(plan_.row().first, pose, problem_.reach());
   looked_at_ = 0;
   const Seeds found = seeds(store, stride);

@@ -9,8 +9,12 @@ namespace bladefit::tuning {
 // Points
 /// [L] Points farther from the middle of the design than this are not of this blade.
 inline constexpr double kFarthestPoint = 1e3;
+/// Largest weight of the squared distance of a point; the smallest is its inverse.
+inline constexpr double kLargestWeight = 1e12;
+/// Approach vectors whose length differs from 1 by more than this are refused.
+inline constexpr double kUnitLength = 1e-3;
 /// A point may be drawn over an edge where it counts, and back where it does not. Left out so often in one refinement,
-/// it stays out of the fit; once, at the optimum, such points come in again. Judged it is all the same.
+/// it stays out of the fit; once, at the optimum, such points come in again. It is judged all the same.
 inline constexpr std::uint8_t kMostExits = 4;
 /// Points whose rows are taken again in every push: the newest ones, and contested ones as far as there is room.
 inline constexpr std::uint32_t kRecentPlaces = 16, kNewestRecent = 4;
@@ -33,6 +37,8 @@ inline constexpr double kSameFoot = 1e-8;
 inline constexpr double kLongestStep = 0.05;
 /// Directions below this share of the trace of the information matrix are rounding.
 inline constexpr double kNumericalRank = 1e-13;
+/// [L] Largest standard uncertainty of a determined direction, where the configuration does not say.
+inline constexpr double kDetermined = 1e-3;
 /// [L] Start poses are assumed right to within this when a direction is not determined yet.
 inline constexpr double kStartUncertainty = 0.01;
 /// [L] While the pose has moved farther than this since the sums in use were begun, their expansions are stale, and a
@@ -49,6 +55,9 @@ inline constexpr double kPendingShare = 0.1;
 /// so many more than there are free degrees of freedom are needed.
 inline constexpr std::uint32_t kLeastJudged = 12, kLeastSpare = 3;
 
+/// [L] What lies farther than this beyond an outer edge no longer belongs to the end of the blade, but was probed
+/// where the design ends, as on a root fillet whose face is not in the design.
+inline constexpr double kFarBeyond = 0.05;
 /// The pose is at rest while it has moved, since the sums in use were begun, by no more than this share of the tightest
 /// tolerance.
 inline constexpr double kRestShare = 0.5;
@@ -94,9 +103,6 @@ inline constexpr std::uint32_t kSeedPoints = 512;
 /// [L] A pose that moves by less than this does not make what was looked at before uncertain.
 inline constexpr double kPoseAtRest = 1e-7;
 
-/// [L] What lies farther than this beyond an outer edge is no longer end of the blade, but was probed where the design
-/// ends, as on a root fillet of which the face is not in the design.
-inline constexpr double kFarBeyond = 0.05;
 /// [L] A foot that is held to face its probe does so where the pose may move by this much before it averts itself.
 inline constexpr double kFacesBy = 1e-9;
 /// And its existence (existence_row.hpp) is kept above this: below, the foot moves ten times as far as its point.

@@ -48,12 +48,12 @@ std::chrono::microseconds wire_time(std::size_t bytes, const SerialLineSettings&
 Failure RtuLink::prepare() {
   if (!speed_code(settings_.line.baud)) {
     return bad_input(
-        fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings_.line.baud));
+        fmt::format("{} baud is not a standard rate; set baud to one such as 9600 or 115200", settings_.line.baud));
   }
   const ModbusSettings& modbus = settings_;
   if (modbus.unit < 1 || modbus.unit > kLargestUnit) {
     return bad_input(
-        fmt::format("unit {} is no address on a serial line; set unit to 1..{}", modbus.unit, kLargestUnit));
+        fmt::format("unit {} is not an address on a serial line; set unit to 1..{}", modbus.unit, kLargestUnit));
   }
   ModbusRequest longest;
   const int records = modbus.batch * modbus.map.record_size;

@@ -121,7 +121,7 @@ Failure check_point_columns(std::string_view columns) {
   CsvHeader header;
   if (Failure failure = read_names(names_in(columns), format, header)) return failure;
   for (const std::string& name : header.unused) {
-    if (name != "-") return bad_input(fmt::format("{} is no column; {}", in_quotes(name), kFix));
+    if (name != "-") return bad_input(fmt::format("{} is not a column; {}", in_quotes(name), kFix));
   }
   return {};
 }

@@ -46,7 +46,7 @@ std::string port_error_text(int error) {
       return "no permission to use the port; add the user to the group that owns it (dialout)";
     case ENOTTY:
     case EISDIR:
-      return "this is no serial port; correct the path";
+      return "this is not a serial port; correct the path";
     default:
       return fmt::format("{}; check the cable and the path", std::strerror(error));
   }

@@ -64,7 +64,7 @@ SerialMessage parse_point(std::string_view fields, std::string_view line) {
     message.point.position[axis] = *coordinate;
     message.point.approach[axis] = *component;
   }
-  if (!normalise_direction(message.point.approach)) return damaged("a direction that is no unit vector", line);
+  if (!normalise_direction(message.point.approach)) return damaged("a direction that is not a unit vector", line);
   return message;
 }
 

@@ -32,7 +32,7 @@ Failure configure(int descriptor, const SerialLineSettings& settings) {
   termios line{};
   if (!speed) {
     return device_failure(
-        fmt::format("{} baud is no standard rate; set baud to one such as 9600 or 115200", settings.baud));
+        fmt::format("{} baud is not a standard rate; set baud to one such as 9600 or 115200", settings.baud));
   }
   if (::tcgetattr(descriptor, &line) != 0) return device_failure(port_error_text(errno));
   ::cfmakeraw(&line);

@@ -70,7 +70,7 @@ ColumnName meaning_of(std::string_view cell, const CsvFormat& format) {
 Failure check_unit(const ColumnName& name, std::string_view cell) {
   if (name.unknown_unit.empty()) return {};
   return bad_input(
-      fmt::format("column {}: {} is no unit that is known here; give mm, cm, m or in, and the lengths in it",
+      fmt::format("column {}: {} is not a unit that is known here; give mm, cm, m or in, and the lengths in it",
                   in_quotes(cell), in_quotes(name.unknown_unit)));
 }
 

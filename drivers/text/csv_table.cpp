@@ -77,10 +77,10 @@ class TableReading {
   Failure read_line(std::string_view line, bool ended, const std::function<Failure(const CsvRow&)>& take) {
     if (line.size() > kLongestRow) {
       return bad_input(
-          fmt::format("the line is longer than {} characters: this is no table; {}", kLongestRow, format_.fix));
+          fmt::format("the line is longer than {} characters: this is not a table; {}", kLongestRow, format_.fix));
     }
     if (is_binary(line))
-      return bad_input(fmt::format("a control character: this is no CSV text file; {}", format_.fix));
+      return bad_input(fmt::format("a control character: this is not a CSV text file; {}", format_.fix));
     if (is_empty(line)) return {};
     if (const std::string_view content = trimmed(line); content.front() == '#') return take_comment(content.substr(1));
     if (header_.columns.empty()) {

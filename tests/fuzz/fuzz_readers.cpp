@@ -111,7 +111,7 @@ bool holds_for_changed(const Reader& reader, const std::vector<Sample>& samples,
   for (std::uint64_t seed = wish.seed; seconds > 0 ? Clock::now() < until : done < kQuickChanges; ++seed, ++done) {
     std::mt19937_64 random(seed);
     std::string bytes = mutated(corpus[random() % corpus.size()], corpus, random);
-    if (reader.mend != nullptr && random() % 2 == 0) reader.mend(bytes);
+    if (reader.repair != nullptr && random() % 2 == 0) reader.repair(bytes);
     std::string refusal;
     const std::string broken = broken_by(reader, bytes, refusal);
     refused += refusal.empty() ? 0 : 1;

@@ -16,7 +16,7 @@ struct Reader {
   std::string_view name;  ///< of its folder in the corpus
   Answer (*read)(std::string_view bytes);
   /// Puts right the check sums of a changed input, so that what they protect is reached; null where there are none.
-  void (*mend)(std::string& bytes);
+  void (*repair)(std::string& bytes);
 };
 
 [[nodiscard]] std::span<const Reader> readers();

@@ -63,7 +63,7 @@ Answer read_salvage(std::string_view bytes) {
 }
 
 /// Gives header and records the right check sums, as if the host itself had written them.
-void mend_journal(std::string& bytes) {
+void repair_journal(std::string& bytes) {
   if (bytes.size() < sizeof(JournalHeader)) return;
   JournalHeader header{};
   std::memcpy(&header, bytes.data(), sizeof header);
@@ -96,7 +96,7 @@ Answer read_image(std::string_view bytes) {
   return {"", ""};
 }
 
-void mend_image(std::string& bytes) {
+void repair_image(std::string& bytes) {
   if (bytes.size() < sizeof(ImageHeader)) return;
   const std::uint64_t size = bytes.size();
   std::memcpy(bytes.data() + offsetof(ImageHeader, total_size), &size, sizeof size);
@@ -108,8 +108,8 @@ void mend_image(std::string& bytes) {
 
 const Reader kStep{"step", read_step_text, nullptr};
 const Reader kIges{"iges", read_iges_text, nullptr};
-const Reader kJournal{"journal", read_journal_file, mend_journal};
-const Reader kSalvage{"salvage", read_salvage, mend_journal};
-const Reader kImage{"image", read_image, mend_image};
+const Reader kJournal{"journal", read_journal_file, repair_journal};
+const Reader kSalvage{"salvage", read_salvage, repair_journal};
+const Reader kImage{"image", read_image, repair_image};
 
 }  // namespace bladefit::fuzz

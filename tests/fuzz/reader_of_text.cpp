@@ -33,7 +33,7 @@ Answer answer_of(const Failure& failure) { return {failure.message, broken_words
 Answer read_points(std::string_view bytes) {
   const PointsFile file = parse_points_csv(bytes, "points.csv", {});
   if (file.error) return answer_of(file.error);
-  if (!std::ranges::all_of(file.points, is_sane)) return {"", "a point that is no point was read"};
+  if (!std::ranges::all_of(file.points, is_sane)) return {"", "a point that is not a point was read"};
   return {"", file.points.empty() ? "a list without points was read" : ""};
 }
 
@@ -42,7 +42,7 @@ std::string refusal_of_line(std::string_view text, const DroSettings& settings) 
   DroLine line;
   const Failure failure = parse_dro_line(text, settings, line);
   for (const auto& axis : line.axes) {
-    if (axis && !std::isfinite(axis->mm)) throw std::logic_error("an axis that is no number was read");
+    if (axis && !std::isfinite(axis->mm)) throw std::logic_error("an axis that is not a number was read");
   }
   return failure.message;
 }
@@ -74,14 +74,14 @@ Answer read_serial(std::string_view bytes) {
     if (!line->damage.empty()) refusal = line->damage;
     if (message.kind == SerialMessage::Kind::damaged) refusal = message.damage;
     if (message.kind != SerialMessage::Kind::point) continue;
-    if (!is_sane(message.point)) return {"", "a point that is no point was read"};
+    if (!is_sane(message.point)) return {"", "a point that is not a point was read"};
     if (message.number == 0 || message.point.sequence != message.number) return {"", "a point has another sequence"};
   }
   return {refusal, broken_words(refusal)};
 }
 
 /// Gives every line that has a check sum the right one.
-void mend_lines(std::string& bytes) {
+void repair_lines(std::string& bytes) {
   for (std::size_t begin = bytes.find('$'); begin != std::string::npos; begin = bytes.find('$', begin + 1)) {
     const std::size_t star = bytes.find('*', begin);
     if (star == std::string::npos || star + 5 > bytes.size()) return;
@@ -117,7 +117,7 @@ Answer read_pairs(std::string_view bytes) {
 
 const Reader kPoints{"points", read_points, nullptr};
 const Reader kReadout{"readout", read_readout, nullptr};
-const Reader kSerial{"serial", read_serial, mend_lines};
+const Reader kSerial{"serial", read_serial, repair_lines};
 const Reader kDeviceFile{"device", read_device, nullptr};
 const Reader kSessionFile{"session", read_session, nullptr};
 const Reader kStartPairs{"pairs", read_pairs, nullptr};

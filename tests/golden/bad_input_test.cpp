@@ -94,7 +94,7 @@ const std::vector<BadInput>& bad_settings() {
       option("a probe larger than the blade", {"--probe-radius", "1e6"}, "--probe-radius: a ball of radius"),
       option("a ratio beyond reason", {"--ratio", "1e99"}, "--ratio: .*out of range"),
       option("an unknown unit", {"--units", "ft"}, "--units: 'ft' is none of: mm, in, cm, m"),
-      option("an unknown option of any length", {"--" + std::string(900, 'a')}, "is no option of localize"),
+      option("an unknown option of any length", {"--" + std::string(900, 'a')}, "is not an option of localize"),
       option("a file of any name", {"--config", std::string(200, 'b') + "/" + std::string(200, 'c')}, "no such file"),
       settings("a tolerance beyond reason in a file", "[fit]\ntolerance = 1e300\n", "fit.toml:2: key 'fit.tolerance'"),
       settings("an unknown key", "[fit]\ntolerances = 1\n", "fit.toml:2: .*did you mean"),

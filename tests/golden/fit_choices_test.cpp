@@ -83,7 +83,7 @@ TEST_F(FitChoices, FiguresBeforeTheFitAreNotThoseAtTheStartPose) {
       with(fit_options(case_, case_.unit), {"--points", case_.subsets.at(1).points.string(), "--start", pairs}));
 }
 
-TEST_F(FitChoices, AberrantPointsAreNamedAndARobustLossLeavesThemBehind) {
+TEST_F(FitChoices, OutliersAreNamedAndARobustLossLeavesThemBehind) {
   std::ifstream in(points_);
   std::string text, line;
   std::getline(in, line);

@@ -144,7 +144,7 @@ TEST_F(Reproduce, TablesArePrintedInTheThesisForm) {
   EXPECT_EQ(outcome.output.find("Table II"), std::string::npos);
 }
 
-TEST_F(Reproduce, BadInputGetsOneLineThatNamesTheMend) {
+TEST_F(Reproduce, BadInputGetsOneLineThatNamesTheFix) {
   const auto refused = [](const std::vector<std::string>& more, const std::string& piece) {
     std::vector<std::string> arguments{BLADEFIT_COMMAND, "reproduce"};
     arguments.insert(arguments.end(), more.begin(), more.end());

@@ -41,7 +41,8 @@ TEST_P(WorkflowRefusals, InOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(Command, WorkflowRefusals,
                          ::testing::Values(Refusal{
-                             {"lofty"}, "'lofty' is no command (did you mean loft?); `bladefit --help` lists them"}));
+                             {"lofty"},
+                             "'lofty' is not a command (did you mean loft?); `bladefit --help` lists them"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Loft, WorkflowRefusals,

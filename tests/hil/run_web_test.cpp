@@ -61,8 +61,8 @@ TEST(RunWeb, WhatIsWrongIsSaidBeforeTheSessionBegins) {
     return run.err();
   };
   const std::string nonsense = refusal("", {"--http", "nonsense"});
-  EXPECT_NE(nonsense.find("--http nonsense: is no address"), std::string::npos);
-  EXPECT_NE(refusal("http = \"8080\"\n").find("panel.http 8080: is no address"), std::string::npos);
+  EXPECT_NE(nonsense.find("--http nonsense: is not an address"), std::string::npos);
+  EXPECT_NE(refusal("http = \"8080\"\n").find("panel.http 8080: is not an address"), std::string::npos);
   EXPECT_NE(refusal("http = \"127.0.0.1:0\"\nhttp_token_file = \"none\"\n").find("cannot be read"), std::string::npos);
   write_file(scratch / "short", "secret\n");
   EXPECT_NE(refusal("http = \"127.0.0.1:0\"\nhttp_token_file = \"short\"\n").find("16 characters"), std::string::npos);

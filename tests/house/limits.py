@@ -33,8 +33,7 @@ FACES = ("core", "drivers")
 # Sources that need no header of their own name.
 HEADERLESS = (
     "*/main.cpp",
-    "core/lanes/*.cpp",  # kernels: several share one header
-    "core/geometry/simd/*.cpp",
+    "core/geometry/simd/*.cpp",  # kernels: several share one header
 )
 # The folders whose sources need one. Of the tests these are the shared parts; the others are programs.
 HEADER_FOLDERS = PRODUCT + ("tests/support",)
@@ -43,19 +42,12 @@ LOOSE_IN_TOOLS = ("main.cpp", "*.sh", "CMakeLists.txt", "README.md")
 
 # Files that spell the same words as an enumeration for another vocabulary: (enumeration, file).
 OTHER_VOCABULARIES = (
-    # What the operator reads on the screen is written for people: "FAULT", "needs more points", "elsewhere".
     ("Unit", "tools/design/iges/*"),  # the units of IGES
     ("Unit", "tools/commands/compile_command.cpp"),  # the unit of a design
-    ("*", "tools/screen/words.cpp"),
+    # What the operator reads on the screen is written for people: "FAULT", "needs more points", "elsewhere".
     ("*", "tools/panel/panel_words.cpp"),
     ("*", "firmware_bridge/host/panel/panel_texts.cpp"),
     # What the panel's registers are called in their printed map.
     ("*", "firmware_bridge/host/panel/panel_fields.cpp"),
     ("*", "tools/panel/panel_map_text.cpp"),
-    # The unit marks that read-outs print behind a number.
-    ("DesignUnit", "drivers/dro/dro_line.cpp"),
-    # The simulator shares nothing with the drivers that it tests, so that both cannot be wrong in the same way.
-    ("SourceKind", "tools/*simulate*"),
-    ("SimulatorTransport", "drivers/*"),
-    ("SimulatorTransport", "config/*"),
 )

@@ -56,7 +56,7 @@ class CurveFoot {
 void check(Status status, const ProbePoint& point, const std::string& name) {
   if (status == Status::ok) return;
   const char* const fix = status == Status::out_of_range ? "it is over a thousand half sizes of the blade away, or "
-                                                           "its direction is no unit vector; correct it, or name "
+                                                           "its direction is not a unit vector; correct it, or name "
                                                            "the unit of the points with --units"
                                                          : status_text(status);
   throw ToolError(fmt::format("{}: point {} cannot be used: {}", name, point.sequence, fix));

@@ -63,7 +63,7 @@ void check_decision(const FitSettings& settings) {
   if (settings.probe_uncertainty && settings.mpe)
     throw ToolError("--probe-uncertainty and --mpe: both give the uncertainty of the probe; leave one out");
   if (settings.least_points && *settings.least_points != std::floor(*settings.least_points))
-    throw ToolError(fmt::format("--least-points {:g}: is no whole number", *settings.least_points));
+    throw ToolError(fmt::format("--least-points {:g}: is not a whole number", *settings.least_points));
 }
 
 /// What the core lets pass but no user can have meant.

@@ -6,13 +6,14 @@
 #include <array>
 #include <cmath>
 
+#include "drivers/text/units.hpp"
 #include "tools/batch/credibility.hpp"
 
 namespace bladefit {
 namespace {
 
 /// Factors between units that measuring programs and CAD systems write.
-constexpr std::array<double, 5> kFactors = {25.4, 10, 1000, 304.8, 100};
+constexpr std::array<double, 5> kFactors = {kMmPerInch, 10, 1000, 304.8, 100};
 /// Points that span more than this many times the design cannot be on it; that span less than this share may be in a
 /// larger unit.
 constexpr double kTooLarge = 1.3, kTooSmall = 0.3;

@@ -70,7 +70,7 @@ std::string unknown_option(const CLI::App& app) {
   for (const std::string& word : command.remaining()) {
     const std::string flag = word.substr(0, word.find('='));
     if (flag.size() < 2 || flag.front() != '-') continue;
-    return "'" + flag + "' is no option of " + command.get_name() + suggestion(flag, flags);
+    return "'" + flag + "' is not an option of " + command.get_name() + suggestion(flag, flags);
   }
   return "";
 }
@@ -79,7 +79,7 @@ std::string unknown_option(const CLI::App& app) {
 int refuse(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
   const std::vector<std::string> names = names_of_commands(app);
   if (!first.empty() && first.front() != '-' && std::ranges::find(names, first) == names.end()) {
-    tell("'" + first + "' is no command" + suggestion(first, names) + "; `bladefit --help` lists them");
+    tell("'" + first + "' is not a command" + suggestion(first, names) + "; `bladefit --help` lists them");
     return kBadInput;
   }
   const std::string unknown = unknown_option(app);

@@ -24,7 +24,7 @@ void refuse_unknown(const CLI::App& app, const std::string& name) {
     if (command->get_name() == name) return;
     names.push_back(command->get_name());
   }
-  throw ToolError("help: '" + name + "' is no command" + suggestion(name, names) + "; `bladefit --help` lists them");
+  throw ToolError("help: '" + name + "' is not a command" + suggestion(name, names) + "; `bladefit --help` lists them");
 }
 
 /// Once a command is chosen, the program's own help() is that of the command.

@@ -23,7 +23,8 @@ int show_panel(const std::string& address, bool big) {
   std::string host;
   std::uint16_t port = 0;
   if (!parse_address(address, host, port)) {
-    fmt::print(stderr, "bladefit: --connect {}: is no address; use HOST:PORT, for example 127.0.0.1:1503\n", address);
+    fmt::print(stderr, "bladefit: --connect {}: is not an address; use HOST:PORT, for example 127.0.0.1:1503\n",
+               address);
     return kBadInput;
   }
   const StopFlag stop;

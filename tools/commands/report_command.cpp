@@ -30,7 +30,8 @@ std::string report_help() {
 Example:
   bladefit report session --format html -o blade.html
 
-Exit codes: 0 done, 2 wrong use or a session that cannot be reported, 3 the report cannot be written (for pdf\nalso: there is nothing that prints a page).)";
+Exit codes: 0 done, 2 wrong use or a session that cannot be reported, 3 the report cannot be written (for pdf also:
+there is nothing that prints a page).)";
 }
 
 /// The report must not take the place of what it is made from.

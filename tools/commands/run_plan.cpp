@@ -65,7 +65,7 @@ PanelServerSettings plan_panel(const PanelSettings& file, const std::string& fla
   if (file.low_word_first) panel.format.low_word_first = *file.low_word_first;
   if (file.infinity) panel.format.infinity = static_cast<float>(*file.infinity);
   if (!flag.empty() && !parse_address(flag, panel.host, panel.port)) {
-    throw ToolError(fmt::format("--panel {}: is no address; use HOST:PORT, for example 127.0.0.1:1503", flag));
+    throw ToolError(fmt::format("--panel {}: is not an address; use HOST:PORT, for example 127.0.0.1:1503", flag));
   }
   return panel;
 }
@@ -95,7 +95,7 @@ std::optional<WebSettings> plan_web(const PanelSettings& file, const std::string
   const char* const name = flag.empty() ? "panel.http" : "--http";
   WebSettings web;
   if (!parse_address(address, web.host, web.port)) {
-    throw ToolError(fmt::format("{} {}: is no address; use HOST:PORT, for example 127.0.0.1:8080", name, address));
+    throw ToolError(fmt::format("{} {}: is not an address; use HOST:PORT, for example 127.0.0.1:8080", name, address));
   }
   if (file.allow) web.allow = *file.allow;
   if (file.http_token_file) web.token = read_token(*file.http_token_file);

@@ -14,6 +14,7 @@
 #include "tools/files/read_text.hpp"
 #include "tools/files/tool_error.hpp"
 #include "tools/simulate/simulator.hpp"
+#include "tools/simulate/transports.hpp"
 
 namespace bladefit {
 namespace {
@@ -23,7 +24,6 @@ struct SimulateFlags {
   SimulatorSettings settings;
   std::string design;
   std::string units;
-  std::string transport;
 };
 
 void add_source_flags(CLI::App& command, SimulateFlags& flags) {
@@ -45,9 +45,9 @@ void add_source_flags(CLI::App& command, SimulateFlags& flags) {
 
 void add_transport_flags(CLI::App& command, SimulateFlags& flags) {
   SimulatorSettings& settings = flags.settings;
-  command.add_option("--transport", flags.transport, "how readers reach the machine")
+  command.add_option("--transport", settings.transport, "how readers reach the machine")
       ->required()
-      ->check(CLI::IsMember({"modbus-tcp", "modbus-rtu", "serial"}));
+      ->check(CLI::IsMember(simulate::transport_words()));
   command.add_option("--port", settings.port, "Modbus TCP port on 127.0.0.1; 0 = any free one, which is printed")
       ->capture_default_str();
   command.add_option("--device", settings.device,
@@ -68,12 +68,6 @@ void add_test_flags(CLI::App& command, SimulatorSettings& settings) {
                      "write sequence,nanoseconds (CLOCK_MONOTONIC) of the moment each record became readable");
   command.add_flag("--exit-when-done", settings.exit_when_done, "end when the last record was acknowledged");
   command.add_flag("--verbose", settings.verbose, "tell commands and faults on standard error");
-}
-
-SimulatorTransport transport_of(const std::string& name) {
-  if (name == "modbus-rtu") return SimulatorTransport::modbus_rtu;
-  if (name == "serial") return SimulatorTransport::serial;
-  return SimulatorTransport::modbus_tcp;
 }
 
 /// The unit of a design. A CAD file is read for it, but not compiled.
@@ -106,7 +100,6 @@ int serve_points(SimulateFlags& flags) {
   refuse_overwriting(flags.settings.stamps, "points", flags.settings.points);
   refuse_overwriting(flags.settings.stamps, "design", flags.design);
   plan_points(flags);
-  flags.settings.transport = transport_of(flags.transport);
   return run_simulator(flags.settings);
 }
 

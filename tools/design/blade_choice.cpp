@@ -51,7 +51,7 @@ double degrees_of(const DesignBlade& blade) { return blade.angle * 180 / std::nu
 }  // namespace
 
 std::size_t blade_number(double given) {
-  if (given != std::floor(given)) throw ToolError(fmt::format("--blade {:g}: is no whole number", given));
+  if (given != std::floor(given)) throw ToolError(fmt::format("--blade {:g}: is not a whole number", given));
   return static_cast<std::size_t>(given);
 }
 

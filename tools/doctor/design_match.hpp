@@ -5,6 +5,7 @@
 #include "core/fit/pose.hpp"
 #include "core/geometry/surface/surface.hpp"
 #include "core/probe_point.hpp"
+#include "drivers/text/units.hpp"
 
 namespace bladefit {
 
@@ -24,7 +25,7 @@ struct DesignMatch {
 };
 
 /// Factors between what a device counts in and millimetres that are tried beside 1.
-inline constexpr double kFactors[] = {0.001, 1 / 25.4, 25.4, 1000};
+inline constexpr double kFactors[] = {0.001, 1 / kMmPerInch, kMmPerInch, 1000};
 
 /// Fewer points than this say nothing.
 inline constexpr std::size_t kLeastPoints = 3;

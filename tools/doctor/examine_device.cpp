@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "drivers/source_uri.hpp"
 #include "drivers/text/units.hpp"
 #include "tools/doctor/line_examination.hpp"
 #include "tools/doctor/modbus_examination.hpp"
@@ -28,12 +29,6 @@ struct ScaleSetting {
     return text;
   }
 
-  std::string operator()(const SerialSettings&) const {
-    return fmt::format(
-        "the device's lengths are to be multiplied by {:.6g}: this protocol is in millimetres, set the device to them",
-        factor);
-  }
-
   std::string operator()(const DroSettings& dro) const {
     for (const Unit unit : {Unit::mm, Unit::inch, Unit::cm, Unit::metre}) {
       if (std::abs(mm_per_unit(unit) / (dro.mm_per_unit * factor) - 1) < kSameFactor)
@@ -43,8 +38,13 @@ struct ScaleSetting {
                        dro.scale.value_or(1) * factor);
   }
 
-  std::string operator()(const ReplaySettings&) const { return ""; }
-  std::string operator()(std::monostate) const { return ""; }
+  /// Any other protocol is in millimetres.
+  template <typename Settings>
+  std::string operator()(const Settings&) const {
+    return fmt::format(
+        "the device's lengths are to be multiplied by {:.6g}: this protocol is in millimetres, set the device to them",
+        factor);
+  }
 };
 
 /// Why the points cannot be compared with a design; empty = they can.
@@ -64,8 +64,7 @@ void match_points(const SourceSettings& settings, const PlacedDesign& design, Ex
     examination.outcome = Outcome::undecided;
     examination.conclusion = fmt::format(
         "the points do not come to lie on the design, half of them are {:.3g} mm off or more, nor do they with a scale "
-        "of "
-        "0.001, 1/25.4, 25.4 or 1000; correct the start pose, or look at the two boxes",
+        "of 0.001, 1/25.4, 25.4 or 1000; correct the start pose, or look at the two boxes",
         match.median_mm);
     return;
   }
@@ -108,9 +107,11 @@ Examination examine_device(const SourceSettings& settings, const PlacedDesign* d
     examination = examine_line(*serial, until);
   } else if (const auto* const dro = std::get_if<DroSettings>(&settings)) {
     examination = examine_line(*dro, until);
-  } else {
+  } else if (std::holds_alternative<ReplaySettings>(settings)) {
     throw ToolError(
         "doctor looks at devices, and this is a recording; name the machine with --source or a device file");
+  } else {
+    throw ToolError(fmt::format("doctor cannot examine {}; try it with run", source_name(settings)));
   }
   const bool read = examination.outcome == Outcome::fits || examination.outcome == Outcome::change;
   if (!examination.points.empty()) examination.seen.push_back("points: " + box_text(examination.points));

@@ -26,7 +26,7 @@ std::string PanelClient::address() const { return fmt::format("{}:{}", host_, po
 Failure PanelClient::connect() {
   context_.reset(modbus_new_tcp_pi(host_.c_str(), std::to_string(port_).c_str()));
   if (!context_)
-    return device_failure(fmt::format("{}: is no address; use HOST:PORT, for example 127.0.0.1:1503", address()));
+    return device_failure(fmt::format("{}: is not an address; use HOST:PORT, for example 127.0.0.1:1503", address()));
   modbus_set_response_timeout(context_.get(), 0, kReplyTimeout_us);
   if (modbus_set_slave(context_.get(), kUnit) == 0 && modbus_connect(context_.get()) == 0) return {};
   const int reason = errno;

@@ -60,7 +60,7 @@ nlohmann::json parse_json(const std::string& path, const std::string& text) {
   } catch (const nlohmann::json::parse_error& error) {
     const std::size_t end = std::min(error.byte, text.size());
     const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
-    throw ToolError(fmt::format("{}:{}: is no JSON text; {}", path, lines + 1, kDamagedFileRemedy));
+    throw ToolError(fmt::format("{}:{}: is not JSON text; {}", path, lines + 1, kDamagedFileRemedy));
   }
 }
 

@@ -85,7 +85,8 @@ void read_region(const JsonField& json, double mm_per_unit, RegionDistances& sum
 std::array<double, 2> read_limits(const JsonField& limits) {
   limits.need_size(2);
   const std::array<double, 2> values = {limits.element(0).number(), limits.element(1).number()};
-  if (!(0.0 <= values[0] && values[0] <= values[1] && values[1] <= 1.0)) limits.refuse("is no interval within 0 to 1");
+  if (!(0.0 <= values[0] && values[0] <= values[1] && values[1] <= 1.0))
+    limits.refuse("is not an interval within 0 to 1");
   return values;
 }
 
@@ -114,7 +115,7 @@ Value read_word(const JsonField& field, const std::array<std::string_view, count
 
 /// The last one stands for what lies outside of all.
 void read_zones(const JsonField& list, Result& result) {
-  if (list.size() < 2 || list.size() > ToleranceMap::kMaxZones + 1) list.refuse("is no list of zones");
+  if (list.size() < 2 || list.size() > ToleranceMap::kMaxZones + 1) list.refuse("is not a list of zones");
   for (std::size_t k = 0; k < list.size(); ++k) {
     const JsonField zone = list.element(k);
     result.zones.push_back({zone["name"].text(), zone["where"].text(), read_word<Region>(zone["region"], kRegionWords),

@@ -9,13 +9,12 @@
 #include <cstring>
 #include <memory>
 
+#include "drivers/modbus/cmm_map_v1.hpp"
 #include "tools/files/message.hpp"
 #include "tools/files/tool_error.hpp"
-#include "tools/simulate/modbus_rtu_transport.hpp"
-#include "tools/simulate/modbus_tcp_transport.hpp"
-#include "tools/simulate/serial_transport.hpp"
 #include "tools/simulate/stamps.hpp"
 #include "tools/simulate/stop_signal.hpp"
+#include "tools/simulate/transports.hpp"
 
 namespace bladefit {
 namespace simulate {
@@ -36,20 +35,6 @@ void check(const SimulatorSettings& settings) {
   }
   if (settings.port < 0 || settings.port > 65535) refuse(fmt::format("--port {}: give 0 to 65535", settings.port));
   if (settings.unit < 1 || settings.unit > 247) refuse(fmt::format("--unit {}: give 1 to 247", settings.unit));
-}
-
-std::unique_ptr<Transport> make_transport(const SimulatorSettings& settings, const FaultSettings& faults,
-                                          Machine& machine, const Log& log) {
-  switch (settings.transport) {
-    case SimulatorTransport::modbus_tcp:
-      return std::make_unique<ModbusTcpTransport>(machine, settings.port, settings.map_version, faults, log);
-    case SimulatorTransport::modbus_rtu:
-      return std::make_unique<ModbusRtuTransport>(machine, settings.device, settings.unit, settings.map_version, faults,
-                                                  log);
-    case SimulatorTransport::serial:
-      return std::make_unique<SerialTransport>(machine, settings.device, faults, log);
-  }
-  throw ToolError("--transport: give modbus-tcp, modbus-rtu or serial");
 }
 
 /// Waits until a descriptor is ready or `until` has come.

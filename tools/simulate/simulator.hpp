@@ -7,18 +7,16 @@
 
 namespace bladefit {
 
-enum class SimulatorTransport : std::uint8_t { modbus_tcp, modbus_rtu, serial };
-
 /// What the simulated machine measures and how it is reached.
 struct SimulatorSettings {
-  std::string points;          ///< points file
-  PointsFormat points_format;  ///< of the points file; on the wire are always mm
-  SimulatorTransport transport = SimulatorTransport::modbus_tcp;
-  int port = 1502;               ///< Modbus TCP, on 127.0.0.1; 0 = any free one
-  std::string device;            ///< Modbus RTU and serial: link to the pseudo terminal; empty = its own name
-  int unit = 1;                  ///< Modbus RTU address on the line, 1..247
-  double rate = 200;             ///< [points/s]; 0 = as fast as the reader acknowledges
-  std::uint32_t capacity = 512;  ///< records in the machine's ring
+  std::string points;                    ///< points file
+  PointsFormat points_format;            ///< of the points file; on the wire are always mm
+  std::string transport = "modbus-tcp";  ///< a word of transport_words()
+  int port = 1502;                       ///< Modbus TCP, on 127.0.0.1; 0 = any free one
+  std::string device;                    ///< Modbus RTU and serial: link to the pseudo terminal; empty = its own name
+  int unit = 1;                          ///< Modbus RTU address on the line, 1..247
+  double rate = 200;                     ///< [points/s]; 0 = as fast as the reader acknowledges
+  std::uint32_t capacity = 512;          ///< records in the machine's ring
   std::uint32_t run_id = 1;
   std::uint16_t map_version = 1;      ///< what register 0 says, to test readers
   std::string faults;                 ///< for example "drop=0.01,delay=0.05:200ms,seed=7"; empty = none

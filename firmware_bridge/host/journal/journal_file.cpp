@@ -48,7 +48,7 @@ Failure unreadable_journal(const std::string& path) {
 
 Failure check_journal_kind(const std::string& path, const JournalHeader& header) {
   if (header.magic != kJournalMagic) {
-    return bad_input(fmt::format("{}: is no journal of a session; name another session folder", path));
+    return bad_input(fmt::format("{}: is not a journal of a session; name another session folder", path));
   }
   if (header.version >= kOldestJournalVersion && header.version <= kJournalVersion) return {};
   const char* why = header.version < kOldestJournalVersion ? ", which does not tell of lost points" : "";

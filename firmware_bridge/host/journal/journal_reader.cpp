@@ -56,7 +56,7 @@ Failure JournalReader::check() {
   if (!read) return unreadable_journal(path_);
   if (!torn) {
     return bad_input(
-        fmt::format("{}: record {} is damaged although later ones are whole, so this is no torn end; "
+        fmt::format("{}: record {} is damaged although later ones are whole, so this is not a torn end; "
                     "nothing was changed: copy the file from a backup, save what is whole with `bladefit "
                     "recover`, or name another session folder",
                     path_, bad));

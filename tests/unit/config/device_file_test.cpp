@@ -71,7 +71,7 @@ TEST(SessionFilePanel, SaysHowNumbersAreSentAndHowLongItStays) {
   EXPECT_EQ(settings.panel.infinity, std::numeric_limits<double>::infinity());
   EXPECT_EQ(settings.panel.linger, 3600);
   for (const auto& [text, error] :
-       {std::pair{"[panel]\ninfinity = nan\n", ":2: key 'panel.infinity': is no number"},
+       {std::pair{"[panel]\ninfinity = nan\n", ":2: key 'panel.infinity': is not a number"},
         {"[panel]\nlinger = -1\n", ":2: key 'panel.linger': -1 is out of range"},
         {"[panel]\nword_order = \"low\"\n", ":2: key 'panel.word_order': 'low' is none of: high_first, low_first"}}) {
     const DeviceText bad(text);

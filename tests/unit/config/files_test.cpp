@@ -165,9 +165,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"kind = \"serial\"\n[[[line]]]\n", ":2: a table without a name begins here"},
         BadFile{"kind = \"serial\"\n [=\n", ":2: a table without a name begins here"},
         BadFile{"kind = \"serial\"\n[\x1b", ":2: a table without a name begins here"}, BadFile{"[", ":1: "},
-        BadFile{"kind = \"serial\" # \xC3\xB6\nm\xC3\xB6 = 1\n", ":2: a letter that is no plain one stands outside"},
+        BadFile{"kind = \"serial\" # \xC3\xB6\nm\xC3\xB6 = 1\n", ":2: a letter that is not a plain one stands outside"},
         BadFile{"kind = \"\xC3\xB6\\\"\xC3\xB6\"\n", ":1: key 'kind': '\xC3\xB6\"\xC3\xB6' is none of"},
-        BadFile{"kind = '''\xC3\xB6\n\n'''\xC3\xBF\n", ":3: a letter that is no plain one"},
+        BadFile{"kind = '''\xC3\xB6\n\n'''\xC3\xBF\n", ":3: a letter that is not a plain one"},
         BadFile{"kind = \"serial\"\n[ line ]\nbuad = 1\n", ":3: unknown key 'line.buad'"}));
 
 class SessionErrors : public ::testing::TestWithParam<BadFile> {};
@@ -189,13 +189,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"capacity = 5", ":1: key 'capacity': 5 is out of range"},
         BadFile{"[panel]\nport = 70000", ":2: key 'panel.port': 70000 is out of range"},
         BadFile{"[panel]\nallow = [1]", ":2: key 'panel.allow': must be a list of texts"},
-        BadFile{"[panel]\nallow = [\"x\"]", ":2: key 'panel.allow': 'x' is no numeric address"},
+        BadFile{"[panel]\nallow = [\"x\"]", ":2: key 'panel.allow': 'x' is not a numeric address"},
         BadFile{"[fit]\nmode = \"best\"", ":2: key 'fit.mode': 'best' is none of: least_squares, minimax"},
         BadFile{"[fit]\nleading_edge = \"u:0:1\"", ":2: key 'fit.leading_edge': must be a list of texts"},
-        BadFile{"[fit]\nleading_edge = [\"w:0:1\"]", ":2: key 'fit.leading_edge': 'w:0:1' is no leading-edge box"},
+        BadFile{"[fit]\nleading_edge = [\"w:0:1\"]", ":2: key 'fit.leading_edge': 'w:0:1' is not a leading-edge box"},
         BadFile{"[fit]\ntolerance = -1", ":2: key 'fit.tolerance': -1 is out of range"},
         BadFile{"[fit]\nratio = 0.5", ":2: key 'fit.ratio': 0.5 is out of range"},
-        BadFile{"[fit]\nwindow = \"0.9:0.1\"", ":2: key 'fit.window': '0.9:0.1' is no window"},
+        BadFile{"[fit]\nwindow = \"0.9:0.1\"", ":2: key 'fit.window': '0.9:0.1' is not a window"},
         BadFile{"[fit]\nstart = \"\"", ":2: key 'fit.start': is empty; give a path"},
         BadFile{"[fit]\nedges = \"keep\"", ":2: key 'fit.edges': 'keep' is none of: skip, use"}));
 
@@ -266,7 +266,8 @@ TEST(LeadingEdge, IsReadAsOnTheCommandLine) {
   EXPECT_EQ(box.v_max, 0.25);
   for (const char* text : {"", "u", "u:0.4", "u:0.6:0.4", "u:0.4:0.4", "u:-1:0.4", "u:0:1.1", "u:0:nan", "-1:u:0:1",
                            "1:2:u:0:1", "u:0:1:2", "U:0:1", "x:0:1"}) {
-    EXPECT_NE(parse_leading_edge(text, box).message.find("is no leading-edge box; write"), std::string::npos) << text;
+    EXPECT_NE(parse_leading_edge(text, box).message.find("is not a leading-edge box; write"), std::string::npos)
+        << text;
   }
   EXPECT_EQ(box.patch, 2U) << "left as it was";
 }

@@ -43,7 +43,7 @@ const SyntaxRow kSyntaxRows[] = {
     {"a = 1\na = 2\n", ":2: 'a = 2' is given a second time; keep one of them"},
     {"[fit]\n[fit]\n", ":2: '[fit]' is given a second time; keep one of them"},
     {"a = [1 2]\n", ":1: 'a = [1 2]' cannot be read; write the list as [a, b], closed by ']'"},
-    {"a = \"\xFF\"\n", ":1: a byte that is no UTF-8 text; save the file as UTF-8"},
+    {"a = \"\xFF\"\n", ":1: a byte that is not UTF-8 text; save the file as UTF-8"},
     {"a = \"\x01\"\n", ":1: a control character; save the file as plain text and delete the character"},
     {"a = " + kLong + "\n", ":1: 'a = " + kLong.substr(0, 56) +
                                 "...' cannot be read; write a text in quotes, true and false in small letters"},

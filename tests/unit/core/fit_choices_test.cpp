@@ -162,7 +162,7 @@ TEST(CoreLoss, SlopeAndCurvatureAreDerivativesOfTheValue) {
 }
 
 /// With every twentieth point off by millimetres a robust pose moves less than that of least squares.
-TEST(CoreLoss, AberrantPointsHardlyMoveARobustFit) {
+TEST(CoreLoss, OutliersHardlyMoveARobustFit) {
   const ReferenceCase c = read_case("arl_fan");
   std::vector<ProbePoint> good, all = points_of(c, "full");
   std::mt19937_64 random(7);

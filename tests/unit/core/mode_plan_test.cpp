@@ -52,6 +52,7 @@ TEST(ModePlan, OfTwoStagesBeginsWithTheSimplerProgram) {
   for (const FitMode mode : kEveryMode) {
     const FitMode first = mode == range ? minimax : mode == constrained ? min_tolerance : mode;
     EXPECT_EQ(mode_row(mode).first, first);
+    EXPECT_EQ(mode_row(mode).last, mode);
     EXPECT_EQ(mode_row(mode).sought, mode == constrained ? min_tolerance : mode);
   }
 }
@@ -62,8 +63,8 @@ TEST(ModePlan, KnowsWhatItsOptimumIs) {
     EXPECT_EQ(row.has_value, mode == minimax || mode == range || mode == min_tolerance);
     EXPECT_EQ(row.has_certificate, mode == minimax || mode == min_tolerance);
     EXPECT_EQ(row.value_is_tolerance, mode == min_tolerance);
-    EXPECT_EQ(row.seeds == ModeRow::Seeds::by_range, mode == range);
-    EXPECT_EQ(row.seeds == ModeRow::Seeds::by_bound, mode == min_tolerance || mode == constrained);
+    EXPECT_EQ(row.compared == ModeRow::Compared::by_range, mode == range);
+    EXPECT_EQ(row.compared == ModeRow::Compared::by_bound, mode == min_tolerance || mode == constrained);
   }
 }
 

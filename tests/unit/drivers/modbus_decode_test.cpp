@@ -182,7 +182,7 @@ struct WrongHeader {
 
 class CmmHeaderErrors : public ::testing::TestWithParam<WrongHeader> {};
 
-TEST_P(CmmHeaderErrors, NameTheMend) {
+TEST_P(CmmHeaderErrors, NameTheFix) {
   Words words = header();
   words[GetParam().at] = GetParam().word;
   EXPECT_NE(check_header(decode_header(words, CmmMap{}), CmmMap{}).message.find(GetParam().error), std::string::npos);

@@ -110,7 +110,7 @@ TEST(ModbusRtu, DeliversAndSurvivesEveryMischief) {
     newest += 3;
     source->acknowledge(newest);
   }
-  EXPECT_EQ(source->status().reconnects, 0U) << "a silent unit is no dead port";
+  EXPECT_EQ(source->status().reconnects, 0U) << "a silent unit is not a dead port";
   source->close();
   EXPECT_EQ(machine.registers.holding(1), 15);
 }
@@ -158,7 +158,7 @@ TEST(ModbusRtu, ReadsRecordsOnASlowLine) {
   EXPECT_EQ(collect_checked(*source, 7), counted(10, 16));
 }
 
-TEST(ModbusRtuErrors, NameTheDeviceAndTheMend) {
+TEST(ModbusRtuErrors, NameTheDeviceAndTheFix) {
   RtuMachine machine;
   const auto opened = [](const ModbusSettings& settings) { return make_source(settings)->open(0, 0).message; };
   ModbusSettings slow = machine.settings();
@@ -167,12 +167,12 @@ TEST(ModbusRtuErrors, NameTheDeviceAndTheMend) {
             std::string::npos)
       << opened(slow);
   slow.line.baud = 9601;
-  EXPECT_NE(opened(slow).find("9601 baud is no standard rate"), std::string::npos);
+  EXPECT_NE(opened(slow).find("9601 baud is not a standard rate"), std::string::npos);
   ModbusSettings missing = machine.settings();
   missing.line.device = "/dev/nonexistent";
   EXPECT_NE(opened(missing).find("modbus-rtu:/dev/nonexistent: there is no such port"), std::string::npos);
   missing.line.device = "/dev/null";
-  EXPECT_NE(opened(missing).find("this is no serial port"), std::string::npos);
+  EXPECT_NE(opened(missing).find("this is not a serial port"), std::string::npos);
   const auto first = make_source(machine.settings());
   ASSERT_EQ(first->open(0, 0).message, "");
   EXPECT_NE(opened(machine.settings()).find("the port is busy"), std::string::npos);

@@ -192,7 +192,7 @@ TEST_P(ModbusTcpRuns, TheRunThatTheStartHasBegunIsAcknowledged) {
   EXPECT_EQ(machine.registers.holding(1), 2);
 }
 
-TEST(ModbusTcpErrors, NameTheDeviceAndTheMend) {
+TEST(ModbusTcpErrors, NameTheDeviceAndTheFix) {
   TcpMachine machine;
   const auto opened = [&machine](const ModbusSettings& settings) { return make_source(settings)->open(0, 0).message; };
   const std::string name = "modbus-tcp://127.0.0.1:" + std::to_string(machine.port) + ": ";

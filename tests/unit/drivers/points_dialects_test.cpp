@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         Doubtful{"x,y,z\n1'234.5,2,3\n", "column x: '1'234.5': is not a finite number"},
         Doubtful{"x y z\n1 234.5 2 3\n", "4 columns where 3 are named"},
         Doubtful{"x [mm],y [in],z [mm]\n1,2,3\n", "a.csv:1: the unit in contradicts mm"},
-        Doubtful{"x [furlong],y,z\n1,2,3\n", "a.csv:1: column 'x [furlong]': 'furlong' is no unit"},
+        Doubtful{"x [furlong],y,z\n1,2,3\n", "a.csv:1: column 'x [furlong]': 'furlong' is not a unit"},
         Doubtful{"# unit: in\nx [mm],y [mm],z [mm]\n1,2,3\n", "contradicts"},
         Doubtful{"# Units: ft\nx,y,z\n1,2,3\n", "a.csv:1: the unit 'ft' is not known here"},
         Doubtful{"x,y,z\n1,2,3\n# units = in\n", "a.csv:3: a unit is given below the first values"},

@@ -171,10 +171,10 @@ TEST(SerialSourceErrors, NameTheDeviceAndTheFix) {
   other.line.device = "/dev/nonexistent";
   EXPECT_NE(opened(other).find("serial:/dev/nonexistent: there is no such port"), std::string::npos);
   other.line.device = "/tmp";
-  EXPECT_NE(opened(other).find("this is no serial port"), std::string::npos) << opened(other);
+  EXPECT_NE(opened(other).find("this is not a serial port"), std::string::npos) << opened(other);
   other = settings;
   other.line.baud = 12345;
-  EXPECT_NE(opened(other).find("12345 baud is no standard rate"), std::string::npos);
+  EXPECT_NE(opened(other).find("12345 baud is not a standard rate"), std::string::npos);
   const auto first = make_source(settings);
   ASSERT_EQ(open_answered(*first, cable), "");
   EXPECT_NE(opened(settings).find("the port is busy: another program uses it"), std::string::npos);

@@ -41,7 +41,7 @@ struct BadUri {
 
 class BadUris : public ::testing::TestWithParam<BadUri> {};
 
-TEST_P(BadUris, NameThePartAndTheMend) {
+TEST_P(BadUris, NameThePartAndTheFix) {
   SourceSettings settings;
   const std::string error = apply_source_uri(GetParam().uri, settings).message;
   EXPECT_NE(error.find(GetParam().error), std::string::npos) << error;

@@ -39,10 +39,11 @@ TEST(Suggestion, IsTheNearestWordThatIsNear) {
 TEST(CommandWords, MistypedOnesAreAnsweredWithTheNearest) {
   const Said command = say({"localise"});
   EXPECT_EQ(command.exit_code, 2);
-  EXPECT_TRUE(holds(command.err, "'localise' is no command (did you mean localize?)")) << command.err;
+  EXPECT_TRUE(holds(command.err, "'localise' is not a command (did you mean localize?)")) << command.err;
   const Said option = say({"localize", "--tolerence=0.1"});
   EXPECT_EQ(option.exit_code, 2);
-  EXPECT_TRUE(holds(option.err, "'--tolerence' is no option of localize (did you mean --tolerance?)")) << option.err;
+  EXPECT_TRUE(holds(option.err, "'--tolerence' is not an option of localize (did you mean --tolerance?)"))
+      << option.err;
 }
 
 TEST(CommandWords, NoneAtAllAndHelpShowTheCommands) {

@@ -63,9 +63,9 @@ TEST(FitFlags, ValuesArriveParsed) {
 TEST(FitFlags, WhatCannotBeUsedIsNamedWithTheFlag) {
   EXPECT_EQ(refusal("--edges keep"), "--edges: 'keep' is none of: skip, use");
   EXPECT_EQ(refusal("--rest-tolerance 0"), "--rest-tolerance: 0 is out of range; give one above 0, up to 1000000000");
-  EXPECT_EQ(refusal("--lock qq").find("--lock: 'qq' is no degree of freedom"), 0U);
-  EXPECT_EQ(refusal("--leading-edge w:0:1").find("--leading-edge: 'w:0:1' is no leading-edge box"), 0U);
-  EXPECT_EQ(refusal("--window 0.9:0.1").find("--window: '0.9:0.1' is no window"), 0U);
+  EXPECT_EQ(refusal("--lock qq").find("--lock: 'qq' is not a degree of freedom"), 0U);
+  EXPECT_EQ(refusal("--leading-edge w:0:1").find("--leading-edge: 'w:0:1' is not a leading-edge box"), 0U);
+  EXPECT_EQ(refusal("--window 0.9:0.1").find("--window: '0.9:0.1' is not a window"), 0U);
   EXPECT_EQ(refusal("--tolerance 1"), "");
   EXPECT_EQ(refusal("--tolerance 1furlong").find("--tolerance: '1furlong' is not a number, nor one with its unit"), 0U);
 }

@@ -214,7 +214,7 @@ TEST(AutoZone, IsWrittenWithItsUnit) {
   EXPECT_TRUE(zone.percent);
   EXPECT_EQ(zone.reach, 3);
   for (const char* wrong : {"auto:", "auto:5", "auto:mm", "auto:-5mm", "auto:0mm", "auto:5 mm", "auto:50%", "auto:5km"})
-    EXPECT_NE(parse_edge_zone(wrong, zone).message.find("is no zone; write auto:"), std::string::npos) << wrong;
+    EXPECT_NE(parse_edge_zone(wrong, zone).message.find("is not a zone; write auto:"), std::string::npos) << wrong;
   EXPECT_EQ(zone.reach, 3);
 }
 

@@ -94,7 +94,7 @@ class TokenScanner {
     const bool fits = error == std::errc() && number <= std::uint32_t{std::numeric_limits<std::int32_t>::max()};
     if (place_ == first) return;
     if (!fits) {
-      fail(fmt::format("#{} is no number that an instance can have",
+      fail(fmt::format("#{} is not a number that an instance can have",
                        text_.substr(first, std::min(place_ - first, kQuoted))));
     }
     if (depth_ == 0) {

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <optional>
 
+#include "drivers/text/units.hpp"
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
@@ -27,7 +28,7 @@ constexpr double kMillimetresPerMetre = 1000.0;
 /// A unit may be defined by another one; more steps than this are a circle.
 constexpr int kMaxConversions = 8;
 
-/// Metres of a prefixed metre, or nothing for a prefix that no drawing has.
+/// The unit of a prefixed metre, or nothing for a prefix that no drawing has.
 std::optional<LengthUnit> prefixed_metre(const StepBasic_SiUnit& unit) {
   if (!unit.HasPrefix()) return LengthUnit{kMillimetresPerMetre, "metre"};
   switch (unit.Prefix()) {
@@ -64,10 +65,12 @@ std::optional<LengthUnit> resolve(const Handle(StepBasic_NamedUnit) & unit, int 
 
 /// False for an inch or foot of another length: then one of the two is wrong, and every length with it.
 bool is_what_its_name_says(const LengthUnit& unit) {
-  constexpr double kInch = 25.4, kRounding = 1e-5;
+  constexpr double kRounding = 1e-5;
   std::string name = unit.name;
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  const double meant = name == "INCH" || name == "INCHES" ? kInch : name == "FOOT" || name == "FEET" ? 12 * kInch : 0;
+  const double meant = name == "INCH" || name == "INCHES" ? kMmPerInch
+                       : name == "FOOT" || name == "FEET" ? 12 * kMmPerInch
+                                                          : 0;
   return meant == 0 || std::abs(unit.mm - meant) <= kRounding * meant;
 }
 

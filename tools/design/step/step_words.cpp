@@ -58,8 +58,8 @@ std::string unit_fault(std::string_view rest) {
   const auto none_of = [](const auto& words, const std::string& word) {
     return std::ranges::find(words, word) == words.end();
   };
-  if (none_of(kPrefixes, prefix)) return fmt::format("'{}' is no prefix of a unit", prefix.substr(0, kShownOfUnit));
-  return none_of(kNames, name) ? fmt::format("'{}' is no unit", name.substr(0, kShownOfUnit)) : "";
+  if (none_of(kPrefixes, prefix)) return fmt::format("'{}' is not a prefix of a unit", prefix.substr(0, kShownOfUnit));
+  return none_of(kNames, name) ? fmt::format("'{}' is not a unit", name.substr(0, kShownOfUnit)) : "";
 }
 
 }  // namespace

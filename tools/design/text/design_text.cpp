@@ -52,7 +52,8 @@ std::string read_design_text(const std::filesystem::path& path) {
     const std::string head = head_of(path);
     refuse_other_kinds(head, path);
     if (!head.empty() && head.find_first_not_of('\0') == std::string::npos) {
-      throw ToolError(fmt::format("{}: the file begins with zeros: it is no design; export it again", path.string()));
+      throw ToolError(
+          fmt::format("{}: the file begins with zeros: it is not a design; export it again", path.string()));
     }
   }
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
