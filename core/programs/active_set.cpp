@@ -101,7 +101,6 @@ class Solver {
   /// Takes x as the centre, so that a second solve refines the first.
   void recentre() {
     centre_ = x();
-    if (hessian_) terms_ = factor_->solve_lower(Vec8(hessian_->cwiseAbs() * centre_.cwiseAbs() + gradient_.cwiseAbs()));
     v_ = hessian_ ? factor_->solve_lower(Vec8(*hessian_ * centre_ + gradient_)) : Vec8(step_ * gradient_);
     for (int k = 0; k < set_.size(); ++k) {
       const WorkingSet::Member m = set_.member(k);
@@ -115,7 +114,9 @@ class Solver {
 
   /// One this small may be rounding of the terms that cancel in the gradient at the centre.
   [[nodiscard]] double negligible() const {
-    return std::max(rounding(), kCancelled * terms_.norm() / set_.least_own_part());
+    if (!hessian_) return rounding();
+    const Vec8 terms = hessian_->cwiseAbs() * centre_.cwiseAbs() + gradient_.cwiseAbs();
+    return std::max(rounding(), kCancelled * factor_->solve_lower(terms).norm() / set_.least_own_part());
   }
 
   [[nodiscard]] double least_multiplier() const { return smallest(now_.multipliers, set_.size()); }
@@ -257,19 +258,10 @@ class Solver {
   WorkingSet::Minimum now_;
   Violations waiting_;
   ActiveSet certificate_;
-  Vec8 centre_ = Vec8::Zero(), v_ = Vec8::Zero(), terms_ = Vec8::Zero();
+  Vec8 centre_ = Vec8::Zero(), v_ = Vec8::Zero();
   double step_ = 0.0;
   int changes_ = 0, scans_ = 0;
 };
-
-bool indices_fit(const ActiveSet& warm, const Constraints& constraints) {
-  if (warm.count < 0 || warm.count > static_cast<int>(warm.entries.size())) return false;
-  for (int k = 0; k < warm.count; ++k) {
-    const int index = warm.entries[static_cast<std::size_t>(k)].index;
-    if (index < 0 || index >= constraints.rows.count + constraints.variables) return false;
-  }
-  return true;
-}
 
 /// The first `count` numbers, 0 behind them.
 Vec8 head(const Vec8& vector, int count) {
@@ -282,7 +274,7 @@ Vec8 head(const Vec8& vector, int count) {
 
 ActiveSetResult minimize_quadratic(const Mat8& hessian, const Vec8& gradient, const Constraints& constraints,
                                    const ActiveSet& warm, const ActiveSetOptions& options) {
-  if (!well_formed(constraints) || !indices_fit(warm, constraints)) return {.status = Status::out_of_range};
+  if (!well_formed(constraints) || !warm.fits(constraints)) return {.status = Status::out_of_range};
   const int n = constraints.variables;
   const RowMagnitudes rows = magnitudes(constraints);
   Mat8 padded = Mat8::Identity();
@@ -296,7 +288,7 @@ ActiveSetResult minimize_quadratic(const Mat8& hessian, const Vec8& gradient, co
 
 ActiveSetResult minimize_linear(const Vec8& gradient, const Constraints& constraints, const Vec8& start,
                                 const ActiveSet& warm, const ActiveSetOptions& options) {
-  if (!well_formed(constraints) || !indices_fit(warm, constraints)) return {.status = Status::out_of_range};
+  if (!well_formed(constraints) || !warm.fits(constraints)) return {.status = Status::out_of_range};
   const int n = constraints.variables;
   const RowMagnitudes rows = magnitudes(constraints);
   const Vec8 g = head(gradient, n), from = head(start, n);

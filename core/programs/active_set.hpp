@@ -13,6 +13,16 @@ struct ActiveSet {
   };
   std::array<Entry, kMaxVariables + 1> entries;
   int count = 0;
+
+  /// Its indices are of these constraints.
+  [[nodiscard]] bool fits(const Constraints& constraints) const {
+    if (count < 0 || count > static_cast<int>(entries.size())) return false;
+    for (int k = 0; k < count; ++k) {
+      const int index = entries[static_cast<std::size_t>(k)].index;
+      if (index < 0 || index >= constraints.rows.count + constraints.variables) return false;
+    }
+    return true;
+  }
 };
 
 struct ActiveSetOptions {
