@@ -263,31 +263,23 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
   return step;
 }
 
-/// Above the multipliers of what it punishes. That of limits falls again, by half a step at most: they are curved, and
-/// under the largest multiplier ever met steps along them would stay short.
+/// Above the multipliers of what it punishes. That of limits falls again: steps along curved ones would stay short.
 void BoundedFit::set_penalty() {
   double largest = 0.0, limits = 0.0;
   for (int k = 0; k < active_.count; ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
     largest = std::max(largest, entry.multiplier);
-    if (is_limit(entry)) limits += entry.multiplier;
+    if (rows_.is_limit(entry.index)) limits += entry.multiplier;
   }
-  if (mode_ == FitMode::constrained) {
-    penalty_ = std::max(penalty_, kPenalty * largest);
-  } else {  // a level gives way to the distances
-    penalty_ = std::max(0.5 * penalty_, kLimitPenalty * limits);
-  }
-}
-
-bool BoundedFit::is_limit(const ActiveSet::Entry& entry) const {
-  return rows_.is_row(entry.index) && !rows_.is_distance(entry.index);
+  const bool bounds = mode_ == FitMode::constrained;  // else a level gives way to the distances
+  penalty_ = bounds ? std::max(penalty_, kPenalty * largest) : std::max(0.5 * penalty_, kLimitPenalty * limits);
 }
 
 std::uint32_t BoundedFit::active_limits() const {
   std::uint32_t count = 0;
   for (int k = 0; k < active_.count; ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
-    if (is_limit(entry) && entry.multiplier > 0.0) ++count;
+    if (rows_.is_limit(entry.index) && entry.multiplier > 0.0) ++count;
   }
   return count;
 }

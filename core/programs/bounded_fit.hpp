@@ -84,7 +84,6 @@ class BoundedFit {
   [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
   [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
   void set_penalty();
-  [[nodiscard]] bool is_limit(const ActiveSet::Entry& entry) const;
 
   BoundRows rows_;
   FitMode mode_ = FitMode::minimax;
