@@ -43,6 +43,7 @@ void FurtherStarts::begin(double own_value, const Pose& own_pose, std::uint32_t 
   best_.value = kInfinity;
   if (compared) best_.value = own_value;
   own_.found = best_.value;
+  rests_.clear();
   start_.number = compared ? 1 : 0;
   for (std::uint32_t i = 0; i < points; ++i) program.skip_row(i);
   begin_start(program);
@@ -56,6 +57,8 @@ void FurtherStarts::begin_start(ModeProgram& program) {
   }
   start_.sweeps = start_.cursor = start_.others = start_.proofs = 0;
   start_.proves = false;
+  start_.found.value = kInfinity;
+  rests_.begin_start();
   program.begin(plan_.row().sought, points_);
   program.set_pose(start_.pose);
 }
@@ -104,7 +107,7 @@ void FurtherStarts::take_in(PointStore& store, std::uint32_t i, const Measuremen
 }
 
 /// A start that has come to rest with a better value is proven: where feet are found on other sheets it goes on with
-/// those, once or twice.
+/// those, once or twice, as long as that leads anywhere else.
 void FurtherStarts::finish_sweep(const QuadraticModel& model, ModeProgram& program, KeptSheets& sheets) {
   if (start_.proves && start_.others > 0) program.compare_anew();
   const bool proven = start_.proves && (start_.others == 0 || start_.proofs == tuning::kStartProofs);
@@ -112,10 +115,16 @@ void FurtherStarts::finish_sweep(const QuadraticModel& model, ModeProgram& progr
   if (!step.from_last) sheets.accept(points_);
   const bool failed = !succeeded(step.status) || ++start_.sweeps == tuning::kStartSweeps;
   if (failed) return end_start(kInfinity, program);
-  const bool worse = program.value() >= best_.value * (1.0 - tuning::kSameOptimum);
-  if ((step.settled && worse) || proven) return end_start(program.value(), program);
+  const double value = program.value();
+  const bool worse = value >= best_.value * (1.0 - tuning::kSameOptimum);
+  if ((step.settled && worse) || proven) return end_start(value, program);
+  if (start_.proves) come_to(value);
+  if (step.settled) {
+    if (const double* outcome = rests_.outcome_of(value)) return end_start(*outcome, program);
+    rests_.note(value);
+    ++start_.proofs;
+  }
   start_.proves = step.settled;
-  if (step.settled) ++start_.proofs;
   start_.others = 0;
   if (!step.from_last) start_.last_pose = start_.pose;
   start_.pose = problem_.moved_and_held(start_.last_pose, step.x);
@@ -123,15 +132,22 @@ void FurtherStarts::finish_sweep(const QuadraticModel& model, ModeProgram& progr
   program.set_pose(start_.pose);
 }
 
-/// The start under way has led to an optimum of this value; infinite: to none.
-void FurtherStarts::end_start(double value, ModeProgram& program) {
+/// The start under way is at this value, of feet that were all searched; infinite: at none. The least counts.
+void FurtherStarts::come_to(double value) {
+  if (value < start_.found.value) start_.found = {value, start_.pose};
+  rests_.came_to(start_.found.value);
+}
+
+void FurtherStarts::end_start(double last_value, ModeProgram& program) {
+  come_to(last_value);
+  const double value = start_.found.value;
   if (start_.number == 0) own_.found = value;
   const auto same_as = [value](double other) { return std::abs(value - other) <= tuning::kSameOptimum * other; };
   if (start_.number > 0 && same_as(best_.value)) ++same_;
   if (start_.number > 0 && same_as(own_.found)) ++same_as_own_;
   if (value < best_.value * (1.0 - tuning::kSameOptimum)) {
     same_ = start_.number > 0 ? 1 : 0;
-    best_ = {value, start_.pose};
+    best_ = start_.found;
   }
   if (start_.number++ < problem_.config.further_starts) {
     begin_start(program);

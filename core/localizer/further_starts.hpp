@@ -1,6 +1,7 @@
 #pragma once
 #include "core/localizer/foot_finder.hpp"
 #include "core/localizer/kept_sheets.hpp"
+#include "core/localizer/known_rests.hpp"
 #include "core/localizer/mode_program.hpp"
 
 namespace bladefit {
@@ -52,7 +53,8 @@ class FurtherStarts {
   [[nodiscard]] bool matters(const ModeProgram& program, std::uint32_t i, const Measurement& m) const;
   void take_in(PointStore& store, std::uint32_t i, const Measurement& m, ModeProgram& program, KeptSheets& sheets);
   void finish_sweep(const QuadraticModel& model, ModeProgram& program, KeptSheets& sheets);
-  void end_start(double value, ModeProgram& program);
+  void come_to(double value);
+  void end_start(double last_value, ModeProgram& program);
 
   /// The optimum that the mode has found. Its value over all points, infinite where there is none, and over those that
   /// are looked at.
@@ -70,6 +72,7 @@ class FurtherStarts {
     std::uint32_t number = 0, sweeps = 0, cursor = 0;
     std::uint32_t others = 0, proofs = 0;  ///< feet that were found on other sheets, and sweeps that looked for them
     bool proves = false;                   ///< feet of this sweep are searched
+    Found found;                           ///< the best so far
     Pose pose, last_pose;
   };
 
@@ -84,6 +87,7 @@ class FurtherStarts {
   std::uint32_t stride_ = 1, points_ = 0;
   Start start_;
   Found best_;
+  KnownRests rests_;
   std::uint32_t same_ = 0, same_as_own_ = 0;  ///< starts that came to the best optimum, and to the mode's own
 };
 

@@ -65,7 +65,7 @@ ModeFit::Next ModeFit::begin_program_at(FitMode mode, const Pose& pose) {
 
 void ModeFit::begin_sweep() {
   program_.set_pose(estimate_.pose());
-  sheets_.begin_sweep(program_);
+  sheets_.begin_sweep(sweep_.proof(), program_);
 }
 
 FootStart ModeFit::start_of(std::uint32_t index) const { return {sheets_.kept(index), sweep_.search_of_kept()}; }
@@ -78,7 +78,7 @@ void ModeFit::note(std::uint32_t index, const Measurement& m, bool counts) {
 ModeFit::Next ModeFit::finish_sweep(bool concluded, ModeOptimum& optimum) {
   if (++sweeps_ > tuning::kModeSweeps) return give_up(FitEnd::sweeps_used_up);
   const double merit = program_.merit(sums_.model());
-  switch (sheets_.weigh(sweep_.proof(), merit, estimate_.pose(), store_.size())) {
+  switch (sheets_.weigh(merit, estimate_.pose(), store_.size())) {
     case SheetDescent::Outcome::same:
       break;
     case SheetDescent::Outcome::adopted:

@@ -25,7 +25,8 @@ void SheetDescent::begin(const PointStore& store, bool there) {
   rounds_ = 0;
 }
 
-void SheetDescent::begin_sweep(ModeProgram& program) {
+void SheetDescent::begin_sweep(bool proof, ModeProgram& program) {
+  proof_ = proof;
   others_.count = 0;
   any_other_ = false;
   program.set_limits(2 * held_.count);
@@ -41,7 +42,9 @@ void SheetDescent::note(std::uint32_t index, const StoredPoint& point, const Pos
     (void)others_.add(index);
   }
   const std::uint32_t k = held_.find(index);
-  if (k < held_.count && m.foot.kind == FootKind::interior) hold(k, pose.rotation * point.approach, m, program);
+  const bool elsewhere = proof_ && m.changed;  // weigh() decides between the two feet
+  if (k < held_.count && !elsewhere && m.foot.kind == FootKind::interior)
+    hold(k, pose.rotation * point.approach, m, program);
 }
 
 void SheetDescent::hold(std::uint32_t k, const Vec3& approach, const Measurement& m, ModeProgram& program) {
@@ -92,10 +95,10 @@ void SheetDescent::accept(std::uint32_t count) {
   }
 }
 
-SheetDescent::Outcome SheetDescent::weigh(bool proof, double merit, const Pose& pose, std::uint32_t count) {
-  if (!proof && !unproven_) return Outcome::same;
+SheetDescent::Outcome SheetDescent::weigh(double merit, const Pose& pose, std::uint32_t count) {
+  if (!proof_ && !unproven_) return Outcome::same;
   if (unproven_) first_merit_ = merit;
-  const bool counts = unproven_ || merit <= proven_merit_ * (1.0 + tuning::kMeritRounding);
+  const bool counts = unproven_ || merit < proven_merit_ * (1.0 - tuning::kSameOptimum);
   if (counts) {
     unproven_ = false;
     proven_pose_ = pose;
@@ -103,7 +106,9 @@ SheetDescent::Outcome SheetDescent::weigh(bool proof, double merit, const Pose& 
     sheets_.prove(count);
   }
   if (!any_other_) return merit <= first_merit_ * (1.0 + tuning::kSameOptimum) ? Outcome::same : Outcome::stuck;
-  const bool last = ++rounds_ > tuning::kSheetRounds;
+  const bool again = free_ && std::abs(merit - free_merit_) <= tuning::kSameOptimum * merit;
+  const bool last = ++rounds_ > tuning::kSheetRounds || again;
+  free_merit_ = merit;
   for (std::uint32_t k = 0; k < held_.count; ++k) hold_[k].placed = false;
   if (counts || free_) {
     release_others();
@@ -117,6 +122,7 @@ SheetDescent::Outcome SheetDescent::weigh(bool proof, double merit, const Pose& 
 SheetDescent::Outcome SheetDescent::let_go(std::uint32_t count) {
   if (free_) return Outcome::stuck;
   free_ = true;
+  free_merit_ = 0.0;
   rounds_ = held_.count = 0;
   sheets_.go_back(count);
   return Outcome::back;

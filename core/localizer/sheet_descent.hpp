@@ -27,8 +27,8 @@ class SheetDescent {
   /// A program begins with the feet that the points have. `there`: at the pose where the last one ended, so that what
   /// was held there is held on.
   void begin(const PointStore& store, bool there);
-  /// A sweep begins.
-  void begin_sweep(ModeProgram& program);
+  /// A sweep begins. `proof`: every foot is searched in it.
+  void begin_sweep(bool proof, ModeProgram& program);
   /// A point was measured in it. `counts`: in the program.
   void note(std::uint32_t index, const StoredPoint& point, const Pose& pose, const Measurement& m, bool counts,
             ModeProgram& program);
@@ -39,8 +39,8 @@ class SheetDescent {
     back,     ///< it does not: go on from proven_pose(), whose sheets are kept again
     stuck     ///< this has gone on too long
   };
-  /// After a sweep at `pose` of this merit. `proof`: every foot was searched.
-  [[nodiscard]] Outcome weigh(bool proof, double merit, const Pose& pose, std::uint32_t count);
+  /// After a sweep at `pose` of this merit.
+  [[nodiscard]] Outcome weigh(double merit, const Pose& pose, std::uint32_t count);
   /// The program leads nowhere. back: go on from proven_pose(), with nothing held. Else stuck.
   [[nodiscard]] Outcome let_go(std::uint32_t count);
   [[nodiscard]] const Pose& proven_pose() const { return proven_pose_; }
@@ -85,12 +85,14 @@ class SheetDescent {
   Points others_;  ///< whose foot in this sweep is on another sheet
   Points held_;    ///< whose foot is held to face its probe, or to be averted no farther
   std::array<Hold, kMost> hold_{};
+  bool proof_ = false;  ///< every foot of this sweep is searched
   bool any_other_ = false;
   bool unproven_ = true;  ///< no pose is proven yet
   bool free_ = false;     ///< nothing is held any more
   std::uint32_t rounds_ = 0;
   Pose proven_pose_;
   double first_merit_ = 0, proven_merit_ = 0;
+  double free_merit_ = 0;  ///< of the last proven pose since nothing is held
 };
 
 }  // namespace bladefit

@@ -59,6 +59,7 @@ class BoundRows {
   /// What an active constraint's index stands for: a distance; this or a limit; else the bound of a variable.
   [[nodiscard]] bool is_distance(int index) const { return index < static_cast<int>(count_); }
   [[nodiscard]] bool is_row(int index) const { return index < static_cast<int>(count_ + limits_); }
+  [[nodiscard]] bool is_limit(int index) const { return is_row(index) && !is_distance(index); }
 
   /// All rows, without levels.
   [[nodiscard]] ConstraintRows view() const;

@@ -20,6 +20,9 @@ constexpr double kMeritRounding = 1e-12;
 constexpr double kAtTrust = 0.99;
 constexpr std::uint32_t kShortSteps = 8;
 
+/// The penalty of broken bounds over the largest multiplier, and of broken limits over the sum of theirs.
+constexpr double kPenalty = 10.0, kLimitPenalty = 2.0;
+
 double sign_of(const ActiveSet::Entry& entry) { return entry.side == Side::upper ? 1.0 : -1.0; }
 
 }  // namespace
@@ -250,7 +253,7 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
   if (!succeeded(result.status)) return step;
   active_ = result.active;
   stationarity_ = result.residuals.stationarity;
-  raise_penalties();
+  set_penalty();
   step.x = basis_.directions * result.x.head<6>();
   step.settled = step.x.norm() <= kSettledBelow * reach_;
   last_.taken = true;
@@ -260,20 +263,23 @@ BoundedFit::Step BoundedFit::step(const QuadraticModel& model) {
   return step;
 }
 
-void BoundedFit::raise_penalties() {
+/// Above the multipliers of what it punishes. That of limits falls again: steps along curved ones would stay short.
+void BoundedFit::set_penalty() {
+  double largest = 0.0, limits = 0.0;
   for (int k = 0; k < active_.count; ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
-    if (mode_ != FitMode::constrained && rows_.is_distance(entry.index)) continue;  // a level gives way to those
-    penalty_ = std::max(penalty_, 10.0 * entry.multiplier);
+    largest = std::max(largest, entry.multiplier);
+    if (rows_.is_limit(entry.index)) limits += entry.multiplier;
   }
+  const bool bounds = mode_ == FitMode::constrained;  // else a level gives way to the distances
+  penalty_ = bounds ? std::max(penalty_, kPenalty * largest) : std::max(0.5 * penalty_, kLimitPenalty * limits);
 }
 
 std::uint32_t BoundedFit::active_limits() const {
   std::uint32_t count = 0;
   for (int k = 0; k < active_.count; ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
-    const bool limit = rows_.is_row(entry.index) && !rows_.is_distance(entry.index);
-    if (limit && entry.multiplier > 0.0) ++count;
+    if (rows_.is_limit(entry.index) && entry.multiplier > 0.0) ++count;
   }
   return count;
 }

@@ -83,7 +83,7 @@ class BoundedFit {
   [[nodiscard]] ActiveSetResult solve_levels() const;
   [[nodiscard]] ActiveSetResult solve_curved(const ActiveSetResult& linear) const;
   [[nodiscard]] ActiveSetResult solve_bounds(const QuadraticModel& model) const;
-  void raise_penalties();
+  void set_penalty();
 
   BoundRows rows_;
   FitMode mode_ = FitMode::minimax;
@@ -94,7 +94,7 @@ class BoundedFit {
   std::array<Mat6, kMaxVariables + 1> bend_;  ///< d^2 d / dx^2 of each active point
   std::uint32_t short_steps_ = 0;             ///< that kept less than they promised, as long as they might be
   bool refused_ = false;                      ///< the present pose
-  double penalty_ = 0;   ///< of a violated tolerance or limit, above the largest of the multipliers
+  double penalty_ = 0;                        ///< of a violated tolerance or limit, above the multipliers of these
   bool curved_ = false;  ///< linear programs have promised too much: their curvature is taken into account
   struct LastStep {
     bool taken = false;

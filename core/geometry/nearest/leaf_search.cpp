@@ -43,7 +43,7 @@ class LeafSearch {
   LeafOutcome run(std::uint32_t budget) {
     if (least_distance(leaf_.bounds, arm_) >= nearest_.limit() || averted()) return {};
     Piece piece{{leaf_.s_min, leaf_.s_max, leaf_.t_min, leaf_.t_max}};
-    if (!nearest_.found()) nearest_.consider(project_local(surface_, query_.point, start_in(piece.rect)));
+    if (nearest_.takes_start()) nearest_.consider(project_local(surface_, query_.point, start_in(piece.rect)));
     if (ends_of(piece.rect) == 0 && slopes_across(leaf_.bounds, arm_)) return {};
     const DerivativeRanges ranges = derivative_ranges(leaf_.bounds, arm_);
     Fate fate = Fate::shrunk;

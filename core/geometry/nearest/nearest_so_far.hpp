@@ -19,6 +19,9 @@ class NearestSoFar {
   void consider_possible(const Projection& place, double least);
 
   [[nodiscard]] bool found() const { return found_; }
+  /// Nothing is found yet, and a descent from the next leaf may find something. A few may: where many have not, it may
+  /// be that no local minimum faces the probe, which only the bounds of all leaves can tell.
+  [[nodiscard]] bool takes_start() { return !found_ && starts_++ < kMostStarts; }
   [[nodiscard]] const Projection& nearest() const { return nearest_; }
   [[nodiscard]] double distance() const { return distance_; }
   /// What is not nearer than this does not matter [mm].
@@ -35,10 +38,12 @@ class NearestSoFar {
   void note_runner_up(const Projection& candidate, double distance);
   [[nodiscard]] bool same(const Vec3& a, const Vec3& b) const;
   static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  static constexpr std::uint32_t kMostStarts = 16;
   const Surface& surface_;
   const Vec3& approach_;
   double margin_, slack_;
   bool directed_, found_ = false, has_resort_ = false;
+  std::uint32_t starts_ = 0;
   double distance_ = 0.0, runner_up_distance_ = kNowhere, third_distance_ = kNowhere;
   Projection nearest_;
   Vec3 runner_up_ = Vec3::Zero();  ///< on the surface

@@ -63,18 +63,18 @@ INSTANTIATE_TEST_SUITE_P(AllCases, DefectModesOn, ::testing::ValuesIn(reference_
                          [](const auto& one) { return one.param; });
 
 /// Patterns whose programs once ended nowhere: along a curved ridge of the largest distance, from a least-squares fit
-/// that feet on two sheets left no rest, and after limits that a program rested on were gone.
+/// that feet on two sheets left no rest, after limits that a program rested on were gone, along a curved limit, from
+/// one merit to the same for ever, and where a search found a held foot elsewhere.
 TEST(DefectModes, AnswerWhereStepsWereShortAndFeetRestless) {
   struct Hard {
     std::uint64_t seed;
     FitMode mode;
     bool directed;
   };
-  constexpr Hard kHard[] = {{67, FitMode::min_tolerance, false},
-                            {251, FitMode::min_tolerance, true},
-                            {107, FitMode::minimax, true},
-                            {107, FitMode::range, true},
-                            {43, FitMode::minimax, true}};
+  constexpr Hard kHard[] = {
+      {67, FitMode::min_tolerance, false}, {251, FitMode::min_tolerance, true}, {107, FitMode::minimax, true},
+      {107, FitMode::range, true},         {43, FitMode::minimax, true},        {131, FitMode::min_tolerance, true},
+      {83, FitMode::minimax, true},        {499, FitMode::minimax, true},       {43, FitMode::min_tolerance, true}};
   const ReferenceCase c = read_case("dtmb4119");
   const DefectPatterns patterns(c, "full");
   for (const Hard& hard : kHard) {

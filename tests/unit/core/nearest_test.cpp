@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "core/geometry/nearest/global_projection.hpp"
+#include "core/geometry/nearest/nearest_so_far.hpp"
 #include "tests/unit/core/brute_force.hpp"
 
 namespace bladefit::testing {
@@ -228,6 +228,22 @@ TEST_P(NearestPoint, MarginToThirdKeepsOneOfTheTwo) {
 
 INSTANTIATE_TEST_SUITE_P(AllCases, NearestPoint, ::testing::ValuesIn(reference_case_names()),
                          [](const auto& one) { return one.param; });
+
+/// Where no local minimum faces the probe a descent from every leaf would find none: a few may try.
+TEST(NearestSoFar, TakesAFewStartsUntilSomethingIsFound) {
+  const CompiledDesign& design = reference_design("dtmb4119");
+  const Vec3 r(10.0, 60.0, 20.0);
+  const ProjectionQuery query{r, Vec3::UnitX()};
+  NearestSoFar none(design.surface(), query), one(design.surface(), query);
+  int taken = 0;
+  for (int k = 0; k < 1000; ++k) taken += none.takes_start() ? 1 : 0;
+  EXPECT_GE(taken, 4);
+  EXPECT_LE(taken, 32);
+  EXPECT_TRUE(one.takes_start());
+  one.consider(project_global(design.surface(), query, nullptr).nearest);
+  ASSERT_TRUE(one.found());
+  EXPECT_FALSE(one.takes_start());
+}
 
 }  // namespace
 }  // namespace bladefit::testing

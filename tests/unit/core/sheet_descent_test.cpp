@@ -40,23 +40,29 @@ struct Descending {
     pose = parts->estimate.pose();
   }
 
-  /// A sweep at the pose that keeps every sheet.
-  void sweep() {
+  /// A sweep at the pose that keeps every sheet, or one that searches every foot and finds the same ones.
+  void sweep(bool proof = false) {
     program.set_pose(pose);
-    descent.begin_sweep(program);
+    descent.begin_sweep(proof, program);
     for (std::uint32_t i = 0; i < parts->store.size(); ++i) note(i, false);
   }
-  void note(std::uint32_t i, bool other) {
+  /// `farther`: by so much than where it is kept lies the foot that is found [mm].
+  void note(std::uint32_t i, bool other, double farther = 0.0) {
     const StoredPoint& point = parts->store[i];
     Measurement m = parts->finder.find_from({descent.kept(i), Search::keep}, point, pose);
     m.changed = other;
+    m.foot.distance += farther;
     const bool counts = !parts->selection.left_out(point, m.foot);
     descent.note(i, point, pose, m, counts, program);
     if (!counts) return program.skip_row(i);
     program.set_row(i, parts->finder.row(m, Vec6::Zero()));
   }
-  [[nodiscard]] Weighed weigh(bool proof, double merit) {
-    return descent.weigh(proof, merit, pose, parts->store.size());
+  [[nodiscard]] Weighed weigh(double merit) { return descent.weigh(merit, pose, parts->store.size()); }
+  /// The same after a search that found another foot of point 3.
+  [[nodiscard]] Weighed weigh_other(double merit) {
+    sweep(true);
+    note(3, true);
+    return weigh(merit);
   }
   void shift(double x_mm) { pose.translation.x() += x_mm; }
   [[nodiscard]] Vec3 kept_place(std::uint32_t i) const { return {descent.kept(i).u, descent.kept(i).v, 0.0}; }
@@ -106,60 +112,87 @@ TEST(SheetDescent, TracksFromWhatIsKeptUntilAStepIsAccepted) {
   EXPECT_NE(d.kept_place(7), before) << "and counts";
 }
 
-TEST(SheetDescent, OtherFeetCountWhereTheMeritHasNotRisen) {
+TEST(SheetDescent, OtherFeetCountWhereTheMeritHasFallen) {
   Descending d;
   d.sweep();
-  EXPECT_EQ(d.weigh(false, 1.0), Weighed::same) << "the first pose";
+  EXPECT_EQ(d.weigh(1.0), Weighed::same) << "the first pose";
   const Pose first = d.pose;
   d.shift(0.1);
   d.sweep();
-  EXPECT_EQ(d.weigh(false, 7.0), Weighed::same) << "nothing was sought";
+  EXPECT_EQ(d.weigh(7.0), Weighed::same) << "nothing was sought";
   EXPECT_TRUE(same_bits(d.descent.proven_pose(), first));
-  d.sweep();
-  d.note(3, true);
-  EXPECT_EQ(d.weigh(true, 0.9), Weighed::adopted);
+  EXPECT_EQ(d.weigh_other(0.9), Weighed::adopted);
   EXPECT_TRUE(same_bits(d.descent.proven_pose(), d.pose));
-  d.sweep();
-  EXPECT_EQ(d.weigh(true, 0.8), Weighed::same) << "all are those of before";
+  d.sweep(true);
+  EXPECT_EQ(d.weigh(0.8), Weighed::same) << "all are those of before";
 }
 
 TEST(SheetDescent, GoesBackAndHoldsFeetThatWouldRaiseTheMerit) {
   Descending d;
   d.sweep();
-  (void)d.weigh(true, 1.0);
+  (void)d.weigh(1.0);
   d.descent.accept(d.parts->store.size());
   const Pose proven = d.pose;
   const Vec3 place = d.kept_place(3);
   d.shift(0.1);
-  d.sweep();
-  d.note(3, true);
-  EXPECT_EQ(d.weigh(true, 1.5), Weighed::back);
+  EXPECT_EQ(d.weigh_other(1.5), Weighed::back);
   EXPECT_TRUE(same_bits(d.descent.proven_pose(), proven));
   EXPECT_EQ(d.kept_place(3), place);
   d.pose = proven;
   d.sweep();
   EXPECT_DOUBLE_EQ(d.program.merit(d.parts->sums.model()), d.program.value()) << "nothing is broken there";
 
-  d.sweep();
-  d.note(3, true);
-  EXPECT_EQ(d.weigh(true, 1.5), Weighed::back) << "it is held already: nothing is held any more";
-  d.sweep();
-  d.note(3, true);
-  EXPECT_EQ(d.weigh(true, 1.5), Weighed::adopted) << "whatever it costs";
-  d.sweep();
-  EXPECT_EQ(d.weigh(true, 1.2), Weighed::stuck) << "worse than where it began";
+  EXPECT_EQ(d.weigh_other(1.5), Weighed::back) << "it is held already: nothing is held any more";
+  EXPECT_EQ(d.weigh_other(1.5), Weighed::adopted) << "whatever it costs";
+  d.sweep(true);
+  EXPECT_EQ(d.weigh(1.2), Weighed::stuck) << "worse than where it began";
   EXPECT_EQ(d.descent.let_go(d.parts->store.size()), Weighed::stuck) << "once only";
+}
+
+/// Where other feet count at the same merit, the program comes back to the same pose for ever.
+TEST(SheetDescent, HoldsFeetThatLeaveTheMeritAsItIs) {
+  Descending d;
+  d.sweep();
+  (void)d.weigh(2.0);
+  d.shift(0.1);
+  EXPECT_EQ(d.weigh_other(1.0), Weighed::adopted);
+  EXPECT_EQ(d.weigh_other(1.0), Weighed::back);
+  EXPECT_EQ(d.weigh_other(1.0), Weighed::back) << "nothing is held any more";
+  EXPECT_EQ(d.weigh_other(1.5), Weighed::adopted);
+  EXPECT_EQ(d.weigh_other(1.5), Weighed::stuck) << "it has come back to the same merit";
+}
+
+/// A held foot that tracking loses is another one: the pose is refused. One that a search finds elsewhere is weighed.
+TEST(SheetDescent, ASearchMayFindAHeldFootElsewhere) {
+  Descending d;
+  d.sweep();
+  (void)d.weigh(1.0);
+  EXPECT_EQ(d.weigh_other(1.5), Weighed::back);
+  d.sweep();
+  d.descent.accept(d.parts->store.size());
+  const auto merit = [&d](bool proof, bool other) {
+    d.sweep(proof);
+    d.note(3, other, 5.0);
+    return d.program.merit(d.parts->sums.model());
+  };
+  EXPECT_EQ(merit(false, true), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(merit(true, false), std::numeric_limits<double>::infinity());
+  EXPECT_LT(merit(true, true), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(d.weigh(0.9), Weighed::adopted);
+  d.sweep();
+  d.note(3, false, 10.0);
+  EXPECT_LT(d.program.merit(d.parts->sums.model()), std::numeric_limits<double>::infinity()) << "not held any more";
 }
 
 TEST(SheetDescent, EndsHoweverOftenFeetChange) {
   Descending d;
   d.sweep();
-  (void)d.weigh(true, 1.0);
+  (void)d.weigh(1.0);
   int rounds = 0;
   for (Weighed outcome = Weighed::same; outcome != Weighed::stuck && rounds < 1000; ++rounds) {
-    d.sweep();
+    d.sweep(true);
     d.note(static_cast<std::uint32_t>(rounds) % 50, true);
-    outcome = d.weigh(true, 2.0);
+    outcome = d.weigh(2.0 + 1e-3 * rounds);
   }
   EXPECT_LT(rounds, 100);
 }
@@ -181,7 +214,14 @@ TEST(SheetDescent, AProgramKeepsItsLimits) {
   EXPECT_NEAR(held.x.dot(along), 0.25 * free.x.norm(), 1e-9);
   EXPECT_EQ(d.program.held_feet(), 1U);
   d.program.set_limit(0, 0.5, along);
-  EXPECT_GT(d.program.merit(d.parts->sums.model()), value) << "one that is broken costs";
+  const double cost = d.program.merit(d.parts->sums.model()) - value;
+  EXPECT_GT(cost, 0.0) << "one that is broken costs";
+  d.sweep();
+  d.program.set_limits(1);
+  d.program.set_limit(0, -10.0, along);
+  ASSERT_EQ(d.program.step(d.parts->sums.model()).status, Status::ok);
+  d.program.set_limit(0, 0.5, along);
+  EXPECT_NEAR(d.program.merit(d.parts->sums.model()) - value, 0.5 * cost, 1e-9 * cost) << "less where none rests on it";
 }
 
 TEST(FacingRow, AgreesWithDifferences) {
