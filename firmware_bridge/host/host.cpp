@@ -149,8 +149,7 @@ Host::~Host() {
 Failure Host::start() {
   running_ = std::make_unique<Running>();
   Running& running = *running_;
-  const SessionIdentity identity{design_.identity(),
-                                 config_digest(settings_.localizer, settings_.path_refine_points)};
+  const SessionIdentity identity{design_.identity(), config_digest(settings_.localizer, settings_.path_refine_points)};
   if (const Failure error = running.make_localizer(settings_.localizer, design_)) return error;
   if (const Failure error = running.open_journal(settings_, identity)) return error;
   if (const Failure error = running.server.open(settings_.panel)) return error;

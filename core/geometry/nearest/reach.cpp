@@ -21,10 +21,8 @@ bool nearest_by_reach(const Surface& surface, const SurfacePlace& foot, const Ve
   const auto reach = static_cast<double>(span.reach[offset.dot(cross) < 0.0 ? 1 : 0]);
   if (!(offset.squaredNorm() < reach * reach)) return false;
   const SpanDomain d = surface.domain(foot.span);
-  if (!well_inside(foot.u, d.u_min, d.u_max, span.inset[kLowU], span.inset[kHighU]) ||
-      !well_inside(foot.v, d.v_min, d.v_max, span.inset[kLowV], span.inset[kHighV]))
-    return false;
-  return true;
+  return well_inside(foot.u, d.u_min, d.u_max, span.inset[kLowU], span.inset[kHighU]) &&
+         well_inside(foot.v, d.v_min, d.v_max, span.inset[kLowV], span.inset[kHighV]);
 }
 
 ReachProof proof_by_reach(const Surface& surface, const Projection& foot) {
