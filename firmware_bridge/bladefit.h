@@ -228,7 +228,7 @@ typedef struct bladefit_fit_report {
  *   static double memory[BLADEFIT_MEMORY_BYTES(4096, BLADEFIT_LEAST_SQUARES) / sizeof(double) + 8];
  * of which the first address that BLADEFIT_MEMORY_ALIGNMENT divides is given. */
 #define BLADEFIT_MEMORY_BYTES(capacity, mode) \
-  (46080u + (size_t)(capacity) * ((mode) == BLADEFIT_LEAST_SQUARES ? 280u : 424u))
+  (48128u + (size_t)(capacity) * ((mode) == BLADEFIT_LEAST_SQUARES ? 280u : 424u))
 
 /* A fit in the caller's memory. */
 typedef struct bladefit_handle bladefit_handle;
