@@ -1,7 +1,6 @@
 #include "core/programs/bound_tracker.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bladefit {
 namespace {
@@ -29,12 +28,8 @@ bool BoundTracker::holds(std::uint32_t point) const {
 bool BoundTracker::violated(double d, double w) const {
   if (!stepped_) return count_ < kPlaces;
   const double margin = kBeyondReach * reach_;
-  const FitMode mode = fit_.mode();
-  if (mode == FitMode::range) {
-    return d > most_ + kBeyond * value_ + margin || d < least_ - kBeyond * value_ - margin;
-  }
-  const double bound = mode == FitMode::minimax ? value_ : mode == FitMode::constrained ? w : w * value_;
-  return std::abs(d) > bound * (1.0 + kBeyond) + margin;
+  const BoundRows::Extremes allowed = fit_.allowed(w, value_, {least_, most_}, kBeyond);
+  return d > allowed.most + margin || d < allowed.least - margin;
 }
 
 /// The place with the most slack that the solution does not rest on.

@@ -67,6 +67,16 @@ class BoundedFit {
   /// How far row i is from its bound, in its own weight; infinite where it does not count.
   [[nodiscard]] double slack(std::uint32_t i) const;
 
+  /// Where the distance of a point of weight w may lie at an optimum of this value with these extremes, widened by a
+  /// share of its bound.
+  [[nodiscard]] BoundRows::Extremes allowed(double w, double value, const BoundRows::Extremes& found,
+                                            double share) const {
+    if (mode_ == FitMode::range) return {found.least - share * value, found.most + share * value};
+    const double of_mode = mode_ == FitMode::minimax ? value : mode_ == FitMode::constrained ? w : w * value;
+    const double bound = of_mode * (1.0 + share);
+    return {-bound, bound};
+  }
+
   /// How many limits the solution of the last program rests on.
   [[nodiscard]] std::uint32_t active_limits() const;
   /// The rows that the solution of the last program rests on.
