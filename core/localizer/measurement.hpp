@@ -19,7 +19,6 @@ struct LaneFoot {
   bool proven_nearest;  ///< by its reach
 
   [[nodiscard]] const SurfacePlace& place() const { return block->feet.place(lane); }
-  [[nodiscard]] double distance() const { return block->rows.distance[lane]; }
   void write_to(Foot& foot, const Surface& surface) const {
     foot = Foot();
     foot.patch = surface.span(place().span).patch;
@@ -27,7 +26,7 @@ struct LaneFoot {
     foot.v = place().v;
     foot.point = block->feet.surface_point(lane);
     foot.normal = lane_of(block->rows.normal, lane);
-    foot.distance = distance();
+    foot.distance = block->rows.distance[lane];
   }
 };
 

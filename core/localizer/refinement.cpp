@@ -110,6 +110,7 @@ void Refinement::take_in(std::uint32_t index, const Measurement& m) {
   if (of_mode) mode_.note(index, m, counts);
   if (!counts) return sums_.pass_over();
   const bool in_block = m.block != nullptr && sums_.in_block(m.lane);
+  if (in_block && !of_mode) return sums_.sweep_in_block(point);
   const DistanceRow row = finder_.row(m, Vec6::Zero());
   if (of_mode) mode_.set_row(index, row);
   if (in_block) return sums_.sweep_in_block(point);

@@ -107,8 +107,6 @@ inline constexpr double kPoseAtRest = 1e-7;
 inline constexpr double kFacesBy = 1e-9;
 /// And its existence (existence_row.hpp) is kept above this: below, the foot moves ten times as far as its point.
 inline constexpr double kLeastExistence = 1e-2;
-/// A merit that rises by no more than this share has not risen.
-inline constexpr double kMeritRounding = 1e-12;
 /// Sweeps of one program, and of all programs of a refinement. Some thirty are usual; a point beyond where its probe
 /// can see it may ask for many.
 inline constexpr std::uint32_t kProgramSweeps = 150, kModeSweeps = 600;

@@ -61,7 +61,7 @@ struct LaneSums {
 void walk_lanes(LaneWalk& walk);
 /// Cost: some 15 ns a point.
 void take_rows(const LaneWalk& walk, const LaneFrame& frame, LaneRows& rows);
-/// Cost: some 15 ns for all lanes. SweptRows::add() does the same for one.
+/// Cost: some 370 instructions for four lanes. SweptRows::add() does the same for one.
 void add_rows(const LaneRows& rows, const LaneTerms& terms, LaneSums& sums);
 
 }  // namespace bladefit
