@@ -67,11 +67,11 @@ std::pair<Piece, Piece> halves_of(const Piece& piece) {
 }
 
 Piece piece_of(const Surface& surface, std::uint32_t span) {
-  const ImagePatch& patch = surface.patch_of(span);
+  BezierNet net;
+  surface.net(span, net);
   Piece piece;
-  piece.columns = patch.degree_v + 1;
-  const double* net = surface.net(span);
-  for (std::size_t k = 0; k < (patch.degree_u + 1) * piece.columns; ++k) piece.net.emplace_back(net + 4 * k);
+  piece.columns = net.degree_v + 1;
+  for (std::size_t k = 0; k < (net.degree_u + 1) * piece.columns; ++k) piece.net.emplace_back(net.points[k].matrix());
   return piece;
 }
 

@@ -9,33 +9,25 @@ namespace {
 /// Second derivatives of half the squared distance below this share of the first fundamental form are negative.
 constexpr double kBendRounding = 1e-9;
 
-using ControlPoint = Eigen::Map<const Homogeneous>;
-
 /// The control points of a span, by their number along a side and the number of rows away from it.
 class SideNet {
  public:
-  SideNet(const Surface& surface, std::uint32_t span, std::size_t side)
-      : net_(surface.net(span)),
-        degree_u_(surface.patch_of(span).degree_u),
-        degree_v_(surface.patch_of(span).degree_v),
-        side_(side) {}
+  SideNet(const BezierNet& net, std::size_t side) : net_(net), side_(side) {}
 
-  [[nodiscard]] std::uint32_t degree_along() const { return is_along_v(side_) ? degree_v_ : degree_u_; }
-  [[nodiscard]] ControlPoint at(std::uint32_t along, std::uint32_t away) const {
-    const std::uint32_t degree = is_along_v(side_) ? degree_u_ : degree_v_;
+  [[nodiscard]] std::uint32_t degree_along() const { return is_along_v(side_) ? net_.degree_v : net_.degree_u; }
+  [[nodiscard]] const Homogeneous& at(std::uint32_t along, std::uint32_t away) const {
+    const std::uint32_t degree = is_along_v(side_) ? net_.degree_u : net_.degree_v;
     const std::uint32_t across = is_high(side_) ? degree - away : away;
-    const std::uint32_t i = is_along_v(side_) ? across : along, j = is_along_v(side_) ? along : across;
-    return ControlPoint(net_ + 4 * (i * (degree_v_ + 1) + j));
+    return is_along_v(side_) ? net_.at(across, along) : net_.at(along, across);
   }
 
  private:
-  const double* net_;
-  std::uint32_t degree_u_, degree_v_;
+  const BezierNet& net_;
   std::size_t side_;
 };
 
-bool is_point(const Surface& surface, std::uint32_t span, std::size_t side, double size) {
-  const SideNet net(surface, span, side);
+bool is_point(const BezierNet& whole, std::size_t side, double size) {
+  const SideNet net(whole, side);
   const auto place = [&](std::uint32_t k) {
     const Homogeneous h = net.at(k, 0);
     return Vec3(h.head<3>() / h[3]);
@@ -50,7 +42,9 @@ bool is_point(const Surface& surface, std::uint32_t span, std::size_t side, doub
 /// The derivative into the surface at the pole is, times a weight, a curve whose control points are those next to the
 /// side, seen from the pole: the distance falls nowhere where it falls towards none of them.
 bool may_fall(const Surface& surface, std::uint32_t span, std::size_t side, const Vec3& offset, double level) {
-  const SideNet net(surface, span, side);
+  BezierNet whole;
+  surface.net(span, whole);
+  const SideNet net(whole, side);
   for (std::uint32_t k = 0; k <= net.degree_along(); ++k) {
     const Homogeneous pole = net.at(k, 0), next = net.at(k, 1);
     const Vec3 way = next.head<3>() - next[3] / pole[3] * pole.head<3>();
@@ -95,7 +89,10 @@ class PoleSearch {
 
 std::size_t pole_side(const Surface& surface, const SurfacePlace& place, const SurfacePoint& at, double size) {
   const auto is_pole = [&](bool there, std::size_t side, const Vec3& along) {
-    return there && along.squaredNorm() <= size * size && is_point(surface, place.span, side, size);
+    if (!there || !(along.squaredNorm() <= size * size)) return false;
+    BezierNet net;
+    surface.net(place.span, net);
+    return is_point(net, side, size);
   };
   if (is_pole(place.u <= 0.0, kLowU, at.s_v)) return kLowU;
   if (is_pole(place.u >= 1.0, kHighU, at.s_v)) return kHighU;
@@ -108,14 +105,17 @@ SpanPoles poles_of(const Surface& surface, std::uint32_t span, double size) {
   const ImageSpan& s = surface.span(span);
   const ImagePatch& p = surface.patch_of(span);
   SpanPoles poles;
-  if (s.iu == 0 && is_point(surface, span, kLowU, size)) {
+  if (s.iu > 0 && s.iu + 1 < p.spans_u && s.iv > 0 && s.iv + 1 < p.spans_v) return poles;
+  BezierNet net;
+  surface.net(span, net);
+  if (s.iu == 0 && is_point(net, kLowU, size)) {
     poles.u = PoleEnd::low;
-  } else if (s.iu + 1 == p.spans_u && is_point(surface, span, kHighU, size)) {
+  } else if (s.iu + 1 == p.spans_u && is_point(net, kHighU, size)) {
     poles.u = PoleEnd::high;
   }
-  if (s.iv == 0 && is_point(surface, span, kLowV, size)) {
+  if (s.iv == 0 && is_point(net, kLowV, size)) {
     poles.v = PoleEnd::low;
-  } else if (s.iv + 1 == p.spans_v && is_point(surface, span, kHighV, size)) {
+  } else if (s.iv + 1 == p.spans_v && is_point(net, kHighV, size)) {
     poles.v = PoleEnd::high;
   }
   return poles;

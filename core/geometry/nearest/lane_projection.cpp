@@ -16,7 +16,7 @@ void LaneProjections::enter(const Surface& surface, const Vec3& r, const Surface
   if (!open_[lane]) return;
   used_ = lane;
   place_[lane] = start;
-  walk_.taylor[lane] = surface.taylor(start.span);
+  walk_.taylor[lane] = surface.taylor(start.span, room_[lane]);
   walk_.per_u[lane] = 1.0 / (d.u_max - d.u_min);
   walk_.per_v[lane] = 1.0 / (d.v_max - d.v_min);
   walk_.x[lane] = (start.u - d.u_min) * walk_.per_u[lane] - 0.5;

@@ -40,6 +40,7 @@ class LaneProjections {
   std::array<bool, kLanes> open_{};
   std::array<SurfacePlace, kLanes> place_;
   LaneWalk walk_;
+  double room_[kLanes][4 * 4 * 4];  ///< for bicubic Taylor forms, where the image holds none
 };
 
 /// The numbers of one lane.

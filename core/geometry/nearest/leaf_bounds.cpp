@@ -6,24 +6,32 @@
 namespace bladefit {
 namespace {
 
-double dot(const double (&a)[3], const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const float (&a)[3], const Vec3& b) {
+  return static_cast<double>(a[0]) * b[0] + static_cast<double>(a[1]) * b[1] + static_cast<double>(a[2]) * b[2];
+}
+
+double dot(const HalfFloat (&a)[3], const Vec3& b) {
+  return from_half_float(a[0]) * b[0] + from_half_float(a[1]) * b[1] + from_half_float(a[2]) * b[2];
+}
 
 ValueRange range_of(const ImageBounds& bounds, int k, const Vec3& w, const Vec3& magnitude) {
   const double middle = dot(bounds.derivative[k], w), spread = dot(bounds.spread[k], magnitude);
-  return {bounds.self_low[k] - middle - spread, bounds.self_high[k] - middle + spread};
+  return {from_half_float(bounds.self_low[k]) - middle - spread, from_half_float(bounds.self_high[k]) - middle + spread};
 }
 
 }  // namespace
 
 Vec3 in_frame(const ImageBounds& bounds, const Vec3& r) {
-  const Vec3 arm = r - Vec3(bounds.middle);
+  const Vec3 arm(r[0] - static_cast<double>(bounds.middle[0]), r[1] - static_cast<double>(bounds.middle[1]),
+                 r[2] - static_cast<double>(bounds.middle[2]));
   return {dot(bounds.axis[0], arm), dot(bounds.axis[1], arm), dot(bounds.axis[2], arm)};
 }
 
 double least_distance(const ImageBounds& bounds, const Vec3& w) {
   double sum = 0.0;
   for (int k = 0; k < 3; ++k) {
-    const double beyond = std::max({bounds.low[k] - w[k], w[k] - bounds.high[k], 0.0});
+    const double beyond =
+        std::max({from_half_float(bounds.low[k]) - w[k], w[k] - from_half_float(bounds.high[k]), 0.0});
     sum += beyond * beyond;
   }
   return std::sqrt(sum);
@@ -46,7 +54,7 @@ bool slopes_across(const ImageBounds& bounds, const Vec3& w) {
 
 DerivativeRanges ranges_along_t(const ImageBounds& bounds, const DerivativeRanges& ranges) {
   // St = (Sb - k Sa) / stretch[1].
-  const double k = bounds.stretch[2] / bounds.stretch[0];
+  const double k = static_cast<double>(bounds.stretch[2]) / static_cast<double>(bounds.stretch[0]);
   DerivativeRanges out = ranges;
   out.vv.least += k * k * ranges.uu.least - 2.0 * std::max(k * ranges.uv.least, k * ranges.uv.most);
   out.vv.most += k * k * ranges.uu.most - 2.0 * std::min(k * ranges.uv.least, k * ranges.uv.most);
@@ -54,7 +62,7 @@ DerivativeRanges ranges_along_t(const ImageBounds& bounds, const DerivativeRange
 }
 
 LocalPlace first_guess(const ImageBounds& bounds, const Vec3& w) {
-  const double* stretch = bounds.stretch;
+  const Vec3 stretch(bounds.stretch[0], bounds.stretch[1], bounds.stretch[2]);
   const double g_s = dot(bounds.derivative[0], w), g_t = dot(bounds.derivative[1], w);
   const double g_a = stretch[0] * g_s, g_b = stretch[1] * g_t + stretch[2] * g_s;
   double aa = 1.0 - dot(bounds.derivative[2], w), bb = 1.0 - dot(bounds.derivative[4], w);

@@ -42,7 +42,7 @@ class LeafSearch {
 
   LeafOutcome run(std::uint32_t budget) {
     if (least_distance(leaf_.bounds, arm_) >= nearest_.limit() || averted()) return {};
-    Piece piece{{leaf_.s_min, leaf_.s_max, leaf_.t_min, leaf_.t_max}};
+    Piece piece{rect_of(leaf_)};
     if (nearest_.takes_start()) nearest_.consider(project_local(surface_, query_.point, start_in(piece.rect)));
     if (ends_of(piece.rect) == 0 && slopes_across(leaf_.bounds, arm_)) return {};
     const DerivativeRanges ranges = derivative_ranges(leaf_.bounds, arm_);
@@ -71,6 +71,7 @@ class LeafSearch {
 
   LeafOutcome search_pieces(const Piece& first, std::uint32_t budget) {
     LeafOutcome outcome;
+    surface_.net(index_, whole_);
     poles_ = poles_of(surface_, index_, foot_size());
     std::array<Piece, kMaxCuts + 2> stack;
     std::size_t size = 0;
@@ -82,7 +83,8 @@ class LeafSearch {
       }
       ++outcome.pieces;
       Piece& piece = stack[size - 1];
-      restrict_net(surface_.net(index_), patch_.degree_u, patch_.degree_v, piece.rect, net_);
+      copy_net(whole_, net_);
+      restrict_net(piece.rect, net_);
       const Fate fate = examine(piece);
       if (fate == Fate::shrunk) continue;
       --size;
@@ -222,8 +224,9 @@ class LeafSearch {
       start = nearest_.nearest().place;
     } else {
       const LocalPlace guess = first_guess(leaf_.bounds, arm_);
-      const double s = leaf_.s_min + guess.s * (leaf_.s_max - leaf_.s_min);
-      const double t = leaf_.t_min + guess.t * (leaf_.t_max - leaf_.t_min);
+      const LocalRect leaf = rect_of(leaf_);
+      const double s = leaf.s_min + guess.s * (leaf.s_max - leaf.s_min);
+      const double t = leaf.t_min + guess.t * (leaf.t_max - leaf.t_min);
       start.u = domain_.u_min + s * (domain_.u_max - domain_.u_min);
       start.v = domain_.v_min + t * (domain_.v_max - domain_.v_min);
     }
@@ -272,7 +275,8 @@ class LeafSearch {
   SpanDomain domain_;
   Vec3 arm_;  ///< the point in the frame of the leaf
   NearestSoFar& nearest_;
-  BezierNet net_;  ///< of the piece in hand
+  BezierNet whole_;  ///< of the span
+  BezierNet net_;    ///< of the piece in hand
   SpanPoles poles_;
 };
 

@@ -19,8 +19,9 @@ constexpr int kMaxSpans = 8;
 
 class NewtonWalk {
  public:
-  NewtonWalk(const Surface& surface, const Vec3& r, const ParameterLimits& limits)
-      : surface_(surface), r_(r), limits_(limits) {
+  /// `room`: for a Taylor form, where the image holds none.
+  NewtonWalk(const Surface& surface, const Vec3& r, const ParameterLimits& limits, double* room)
+      : surface_(surface), r_(r), limits_(limits), room_(room) {
     for (int k = 0; k < 3; ++k) task_.r[k] = r[k];
     task_.last_step = kLastStep * surface.half_diagonal();
     task_.slack = kDistanceRounding * surface.half_diagonal();
@@ -59,7 +60,7 @@ class NewtonWalk {
     domain_ = surface_.domain(place.span);
     per_u_ = 1.0 / (domain_.u_max - domain_.u_min);
     per_v_ = 1.0 / (domain_.v_max - domain_.v_min);
-    task_.taylor = surface_.taylor(place.span);
+    task_.taylor = surface_.taylor(place.span, room_);
     task_.degree_u = patch.degree_u;
     task_.degree_v = patch.degree_v;
     task_.x_min = limits_.u_min > domain_.u_min ? x_of(limits_.u_min) : -0.5;
@@ -82,17 +83,26 @@ class NewtonWalk {
   const Surface& surface_;
   const Vec3& r_;
   const ParameterLimits& limits_;
+  double* room_;
   bool lanes_ = lanes_available();
   SpanTask task_;
   SpanDomain domain_{};
   double per_u_ = 1, per_v_ = 1;
 };
 
+// Apart, so that the room is taken from the stack where it is needed only.
+[[gnu::noinline]] bool walk_worked_out(const Surface& surface, const Vec3& r, const ParameterLimits& limits,
+                                       SurfacePlace& start, Projection& result) {
+  TaylorRoom room;
+  return NewtonWalk(surface, r, limits, room.data()).run(start, result);
+}
+
 }  // namespace
 
 bool newton_walk(const Surface& surface, const Vec3& r, const ParameterLimits& limits, SurfacePlace& start,
                  Projection& result) {
-  return NewtonWalk(surface, r, limits).run(start, result);
+  if (!surface.holds_taylor()) return walk_worked_out(surface, r, limits, start, result);
+  return NewtonWalk(surface, r, limits, nullptr).run(start, result);
 }
 
 SurfacePlace clamped(const SurfacePlace& place, const ParameterLimits& limits) {

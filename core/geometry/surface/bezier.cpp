@@ -1,9 +1,9 @@
 #include "core/geometry/surface/bezier.hpp"
 
+#include <algorithm>
+
 namespace bladefit {
 namespace {
-
-using NetPoint = Eigen::Map<const Homogeneous>;
 
 /// Restricts one control polygon of n + 1 points, `stride` apart, to [t0, t1].
 void restrict_polygon(Homogeneous* points, std::uint32_t n, std::uint32_t stride, double t0, double t1) {
@@ -25,16 +25,18 @@ void restrict_polygon(Homogeneous* points, std::uint32_t n, std::uint32_t stride
 
 }  // namespace
 
-void restrict_net(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, const LocalRect& rect,
-                  BezierNet& out) {
-  out.degree_u = degree_u;
-  out.degree_v = degree_v;
-  const std::uint32_t columns = degree_v + 1, count = (degree_u + 1) * columns;
-  for (std::uint32_t k = 0; k < count; ++k) out.points[k] = NetPoint(net + 4U * k);
+void copy_net(const BezierNet& from, BezierNet& to) {
+  to.degree_u = from.degree_u;
+  to.degree_v = from.degree_v;
+  std::copy_n(from.points.begin(), (from.degree_u + 1) * (from.degree_v + 1), to.points.begin());
+}
+
+void restrict_net(const LocalRect& rect, BezierNet& net) {
+  const std::uint32_t columns = net.degree_v + 1;
   for (std::uint32_t j = 0; j < columns; ++j)
-    restrict_polygon(&out.points[j], degree_u, columns, rect.s_min, rect.s_max);
-  for (std::uint32_t i = 0; i <= degree_u; ++i)
-    restrict_polygon(&out.points[i * columns], degree_v, 1, rect.t_min, rect.t_max);
+    restrict_polygon(&net.points[j], net.degree_u, columns, rect.s_min, rect.s_max);
+  for (std::uint32_t i = 0; i <= net.degree_u; ++i)
+    restrict_polygon(&net.points[i * columns], net.degree_v, 1, rect.t_min, rect.t_max);
 }
 
 }  // namespace bladefit

@@ -20,13 +20,20 @@ struct BezierNet {
   [[nodiscard]] const Homogeneous& at(std::uint32_t i, std::uint32_t j) const { return points[i * (degree_v + 1) + j]; }
 };
 
+/// The control points that the degrees tell of, and no others. Cost: linear in them.
+void copy_net(const BezierNet& from, BezierNet& to);
+
 /// Rectangle of local parameters inside one span.
 struct LocalRect {
   double s_min = 0, s_max = 1, t_min = 0, t_max = 1;
 };
 
-/// Net of the part of a span over `rect`, by two de Casteljau cuts in each direction.
-void restrict_net(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, const LocalRect& rect,
-                  BezierNet& out);
+[[nodiscard]] inline LocalRect rect_of(const ImageLeaf& leaf) {
+  return {static_cast<double>(leaf.s_min), static_cast<double>(leaf.s_max), static_cast<double>(leaf.t_min),
+          static_cast<double>(leaf.t_max)};
+}
+
+/// Leaves of the net of a span that of the part over `rect`, by two de Casteljau cuts in each direction.
+void restrict_net(const LocalRect& rect, BezierNet& net);
 
 }  // namespace bladefit

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/crc32.hpp"
+#include "core/geometry/surface/span_net.hpp"
 #include "core/geometry/surface/taylor.hpp"
 #include "core/geometry/surface/tree_check.hpp"
 #include "core/geometry/surface/trim_check.hpp"
@@ -15,6 +16,9 @@ namespace {
 
 /// Coefficients of a Taylor form may differ from their own by this share of the largest control point.
 constexpr double kTaylorRounding = 1e-12;
+
+/// By so much the shares of control points may add up to something else than 1.
+constexpr double kMeanRounding = 1e-14;
 
 /// True where `count` elements of T at `offset` lie inside the image, 8-byte aligned, behind the header.
 template <class T>
@@ -48,16 +52,34 @@ bool breaks_valid(std::span<const double> breaks, std::uint64_t first, std::uint
   return b.front() == 0.0 && b.back() == 1.0;
 }
 
+/// The extractions of one direction are means, but for rounding.
+bool extractions_valid(std::span<const double> extractions, std::uint64_t first, std::uint64_t spans,
+                       std::uint64_t order) {
+  const std::uint64_t count = spans * order * order;
+  if (first > extractions.size() || count > extractions.size() - first) return false;
+  for (std::uint64_t row = first; row < first + count; row += order) {
+    double sum = 0.0;
+    for (std::uint64_t k = row; k < row + order; ++k) {
+      if (!(extractions[k] >= 0.0 && extractions[k] <= 1.0)) return false;
+      sum += extractions[k];
+    }
+    if (!(std::abs(sum - 1.0) <= kMeanRounding)) return false;
+  }
+  return true;
+}
+
 bool patches_valid(const DesignImage& image) {
   std::uint64_t next_span = 0;
   for (const ImagePatch& p : image.patches()) {
     const bool degrees = p.degree_u >= 1 && p.degree_u <= kMaxDegree && p.degree_v >= 1 && p.degree_v <= kMaxDegree;
     const bool spans = p.spans_u >= 1 && p.spans_v >= 1 && p.first_span == next_span;
-    if (!degrees || !spans || p.rational > 1 || p.reversed > 1 || p.spare != 0) return false;
+    if (!degrees || !spans || p.rational > 1 || p.reversed > 1 || p.points_v <= p.degree_v) return false;
     next_span += static_cast<std::uint64_t>(p.spans_u) * p.spans_v;
     if (next_span > image.spans().size()) return false;
     if (!breaks_valid(image.breaks(), p.first_break_u, p.spans_u)) return false;
     if (!breaks_valid(image.breaks(), p.first_break_v, p.spans_v)) return false;
+    if (!extractions_valid(image.extractions(), p.first_extraction_u, p.spans_u, p.degree_u + 1)) return false;
+    if (!extractions_valid(image.extractions(), p.first_extraction_v, p.spans_v, p.degree_v + 1)) return false;
   }
   return next_span == image.spans().size();
 }
@@ -78,15 +100,22 @@ bool reach_valid(const ImageSpan& s) {
 /// Every number finite and every range the right way round. That the bounds hold is the compiler's promise, kept by the
 /// CRC: it cannot be checked at this cost.
 bool bounds_valid(const ImageBounds& b) {
-  const auto rises = [](const double* low, const double* high, int count) {
-    return std::equal(low, low + count, high,
-                      [](double l, double h) { return std::isfinite(l) && std::isfinite(h) && l <= h; });
+  const auto rises = [](const HalfFloat* low, const HalfFloat* high, int count) {
+    return std::equal(low, low + count, high, [](HalfFloat l, HalfFloat h) {
+      return std::isfinite(from_half_float(l)) && std::isfinite(from_half_float(h)) &&
+             from_half_float(l) <= from_half_float(h);
+    });
   };
-  bool valid = finite3(b.middle) && finite3(b.stretch) && b.stretch[0] > 0.0 && b.stretch[1] != 0.0 &&
+  const auto finite = [](const float(&x)[3]) {
+    return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+  };
+  bool valid = finite(b.middle) && finite(b.stretch) && b.stretch[0] > 0.0F && b.stretch[1] != 0.0F &&
                rises(b.low, b.high, 3) && rises(b.self_low, b.self_high, 7);
-  for (const auto& axis : b.axis) valid = valid && finite3(axis);
-  for (const auto& derivative : b.derivative) valid = valid && finite3(derivative);
-  for (const auto& spread : b.spread) valid = valid && finite3(spread) && *std::min_element(spread, spread + 3) >= 0.0;
+  for (const auto& axis : b.axis) valid = valid && finite(axis);
+  for (const auto& derivative : b.derivative) valid = valid && finite(derivative);
+  for (const auto& spread : b.spread) {
+    for (const HalfFloat x : spread) valid = valid && std::isfinite(from_half_float(x)) && from_half_float(x) >= 0.0;
+  }
   return valid;
 }
 
@@ -105,32 +134,37 @@ bool ends_valid(const ImageSpan& s, const ImagePatch& p) {
 }
 
 /// Control points finite, weights positive.
-bool net_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p) {
-  const std::uint64_t count = static_cast<std::uint64_t>(p.degree_u + 1) * (p.degree_v + 1);
-  const auto coefficients = image.coefficients();
-  if (s.first_coefficient > coefficients.size() || 4 * count > coefficients.size() - s.first_coefficient) return false;
-  const double* first = &coefficients[s.first_coefficient];
-  for (const double* c = first; c != first + 4 * count; c += 4) {
-    const double w = c[3];
-    if (!(w > 0.0) || !std::isfinite(w) || (p.rational == 0 && w != 1.0)) return false;
-    for (int k = 0; k < 3; ++k) {
-      if (!std::isfinite(c[k] / w)) return false;
+bool points_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p) {
+  const std::uint64_t count = image.points().size() / 4,
+                      last = static_cast<std::uint64_t>(p.degree_u) * p.points_v + p.degree_v;
+  if (s.first_point >= count || last >= count - s.first_point) return false;
+  const double* first = &image.points()[4U * static_cast<std::size_t>(s.first_point)];
+  for (std::uint32_t i = 0; i <= p.degree_u; ++i) {
+    for (std::uint32_t j = 0; j <= p.degree_v; ++j) {
+      const double* c = first + 4U * (static_cast<std::size_t>(i) * p.points_v + j);
+      const double w = c[3];
+      if (!(w > 0.0) || !std::isfinite(w) || (p.rational == 0 && w != 1.0)) return false;
+      for (int k = 0; k < 3; ++k) {
+        if (!std::isfinite(c[k] / w)) return false;
+      }
     }
   }
   return true;
 }
 
-/// The Taylor form is that of the control points, but for rounding.
+/// The Taylor form, where there is one, is that of the control points, but for rounding.
 bool taylor_valid(const DesignImage& image, const ImageSpan& s, const ImagePatch& p) {
-  const std::size_t count = 4U * (p.degree_u + 1) * (p.degree_v + 1);
-  const double* net = &image.coefficients()[s.first_coefficient];
-  const double* found = &image.taylor()[s.first_coefficient];
+  const auto taylor = image.taylor();
+  const std::size_t count = 4U * (p.degree_u + 1) * (p.degree_v + 1), first = 4U * std::size_t{s.first_taylor};
+  if (taylor.empty()) return s.first_taylor == 0;
+  if (first > taylor.size() || count > taylor.size() - first) return false;
   std::array<double, 4 * kMaxOrder * kMaxOrder> expected;
-  taylor_form(net, p.degree_u, p.degree_v, expected.data());
+  bezier_points(source_of(image, s), expected.data());
   double size = 0.0;
-  for (std::size_t k = 0; k < count; ++k) size = std::max(size, std::abs(net[k]));
+  for (std::size_t k = 0; k < count; ++k) size = std::max(size, std::abs(expected[k]));
+  to_taylor_form(p.degree_u, p.degree_v, expected.data());
   for (std::size_t k = 0; k < count; ++k) {
-    if (!(std::abs(found[k] - expected[k]) <= kTaylorRounding * size)) return false;
+    if (!(std::abs(taylor[first + k] - expected[k]) <= kTaylorRounding * size)) return false;
   }
   return true;
 }
@@ -143,15 +177,16 @@ bool spans_valid(const DesignImage& image) {
     if (s.iu >= p.spans_u || s.iv >= p.spans_v ||
         i != p.first_span + static_cast<std::uint64_t>(s.iu) * p.spans_v + s.iv)
       return false;
-    if (!cone_valid(s) || !reach_valid(s) || !ends_valid(s, p) || !net_valid(image, s, p) || !taylor_valid(image, s, p))
+    if (!cone_valid(s) || !reach_valid(s) || !ends_valid(s, p) || !points_valid(image, s, p) ||
+        !taylor_valid(image, s, p))
       return false;
   }
   return true;
 }
 
 bool rectangle_valid(const ImageLeaf& leaf) {
-  return leaf.s_min >= 0.0 && leaf.s_min < leaf.s_max && leaf.s_max <= 1.0 && leaf.t_min >= 0.0 &&
-         leaf.t_min < leaf.t_max && leaf.t_max <= 1.0;
+  return leaf.spare == 0 && leaf.bounds.spare == 0 && leaf.s_min >= 0.0F && leaf.s_min < leaf.s_max && leaf.s_max <= 1.0F && leaf.t_min >= 0.0F &&
+         leaf.t_min < leaf.t_max && leaf.t_max <= 1.0F;
 }
 
 /// The leaves of a span follow each other and cover its area: they are cut by halves, so that areas add up exactly.
@@ -163,7 +198,8 @@ bool leaves_valid(const DesignImage& image) {
     for (; i < image.leaves().size() && image.leaves()[i].span == span; ++i) {
       const ImageLeaf& leaf = image.leaves()[i];
       if (!rectangle_valid(leaf) || !bounds_valid(leaf.bounds)) return false;
-      area += (leaf.s_max - leaf.s_min) * (leaf.t_max - leaf.t_min);
+      const LocalRect rect = rect_of(leaf);
+      area += (rect.s_max - rect.s_min) * (rect.t_max - rect.t_min);
     }
     const bool trimmed = image.patches()[image.spans()[span].patch].slab_count > 0;
     if (trimmed ? area > 1.0 : area != 1.0) return false;
@@ -192,14 +228,15 @@ Status header_status(std::span<const std::byte> bytes, const ImageHeader& h) {
                       array_fits<ImageLeaf>(h.leaves_offset, h.leaf_count, h.total_size) &&
                       array_fits<ImageNode>(h.nodes_offset, h.node_count, h.total_size) &&
                       array_fits<double>(h.breaks_offset, h.break_count, h.total_size) &&
-                      array_fits<double>(h.coefficients_offset, h.coefficient_count, h.total_size) &&
-                      array_fits<double>(h.taylor_offset, h.coefficient_count, h.total_size) &&
+                      array_fits<double[4]>(h.points_offset, h.point_count, h.total_size) &&
+                      array_fits<double>(h.extractions_offset, h.extraction_count, h.total_size) &&
+                      array_fits<double>(h.taylor_offset, h.taylor_count, h.total_size) &&
                       array_fits<ImageTrim>(h.trims_offset, h.trim_count, h.total_size) &&
                       array_fits<ImageTrimRun>(h.runs_offset, h.run_count, h.total_size) &&
                       array_fits<ImageSlab>(h.slabs_offset, h.slab_count, h.total_size) &&
                       array_fits<std::uint32_t>(h.slab_trims_offset, h.slab_trim_count, h.total_size);
   const bool counts = h.patch_count >= 1 && h.span_count >= 1 && h.leaf_count >= 1 && h.node_count >= 1;
-  const bool fields = h.spare == 0 && h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && box_valid(h);
+  const bool fields = h.design_unit <= 1 && (h.outward == 1 || h.outward == -1) && box_valid(h);
   return arrays && counts && fields ? Status::ok : Status::bad_content;
 }
 
@@ -246,8 +283,9 @@ Status DesignImage::open(std::span<const std::byte> bytes, DesignImage& image) {
   candidate.leaves_ = view<ImageLeaf>(bytes, h.leaves_offset, h.leaf_count);
   candidate.nodes_ = view<ImageNode>(bytes, h.nodes_offset, h.node_count);
   candidate.breaks_ = view<double>(bytes, h.breaks_offset, h.break_count);
-  candidate.coefficients_ = view<double>(bytes, h.coefficients_offset, h.coefficient_count);
-  candidate.taylor_ = view<double>(bytes, h.taylor_offset, h.coefficient_count);
+  candidate.points_ = view<double>(bytes, h.points_offset, 4 * h.point_count);
+  candidate.extractions_ = view<double>(bytes, h.extractions_offset, h.extraction_count);
+  candidate.taylor_ = view<double>(bytes, h.taylor_offset, h.taylor_count);
   candidate.trims_ = view<ImageTrim>(bytes, h.trims_offset, h.trim_count);
   candidate.runs_ = view<ImageTrimRun>(bytes, h.runs_offset, h.run_count);
   candidate.slabs_ = view<ImageSlab>(bytes, h.slabs_offset, h.slab_count);

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,7 +16,7 @@ namespace bladefit {
 /// All lengths are millimetres; every patch has its parameters normalised to 0..1.
 
 inline constexpr char kImageMagic[8] = {'B', 'L', 'D', 'E', 'F', 'I', 'T', '\n'};
-inline constexpr std::uint32_t kImageVersion = 9;
+inline constexpr std::uint32_t kImageVersion = 10;
 inline constexpr std::uint32_t kMaxDegree = 9;
 inline constexpr std::uint32_t kMaxTreeDepth = 48;
 
@@ -29,14 +30,19 @@ struct ImageHeader {
   std::uint32_t design_unit;  ///< DesignUnit of the file it was compiled from; the numbers here are mm all the same
   std::int32_t outward;       ///< +1 or -1: outward normal = outward * (Su x Sv), of reversed patches minus that
   std::uint32_t patch_count, span_count, node_count, break_count;
-  std::uint32_t leaf_count, trim_count, run_count, slab_count, slab_trim_count, spare;  ///< spare: 0
-  std::uint64_t coefficient_count;  ///< doubles, of the control points and again of the Taylor forms
-  std::uint64_t patches_offset, spans_offset, leaves_offset, nodes_offset, breaks_offset, coefficients_offset,
-      taylor_offset, trims_offset, runs_offset, slabs_offset, slab_trims_offset;
+  std::uint32_t leaf_count, trim_count, run_count, slab_count, slab_trim_count, extraction_count;
+  std::uint64_t point_count;   ///< control points
+  std::uint64_t taylor_count;  ///< doubles of the spans' Taylor forms; 0: each is worked out where it is asked for
+  std::uint64_t patches_offset, spans_offset, leaves_offset, nodes_offset, breaks_offset, points_offset,
+      extractions_offset, taylor_offset, trims_offset, runs_offset, slabs_offset, slab_trims_offset;
   double box_min[3], box_max[3];  ///< of the control points [mm]
 };
 
-/// One NURBS patch, cut into spans_u x spans_v Bezier spans.
+/// One NURBS patch, cut into spans_u x spans_v Bezier spans. The control points of a span in one direction are means of
+/// the patch's: Bezier point k of span i is the sum of extraction[l] times control point l of the degree + 1 that the
+/// span takes part in, extraction being the row k of the span's (degree + 1) x (degree + 1) numbers in
+/// extractions[first_extraction + i (degree + 1)^2]. (Borden and others, Isogeometric finite element data structures
+/// based on Bezier extraction of NURBS, 2011.)
 struct ImagePatch {
   std::uint32_t degree_u, degree_v;  ///< 1..9
   std::uint32_t spans_u, spans_v;
@@ -45,21 +51,22 @@ struct ImagePatch {
   std::uint32_t rational;                      ///< 0: every weight is 1
   std::uint32_t reversed;                      ///< 1: the outward side is the other one than the header says
   std::uint32_t first_slab, slab_count;        ///< of its trim loops; no slabs: the face is all of the patch
-  std::uint32_t spare;                         ///< 0
+  std::uint32_t points_v;                      ///< control points of a row: from one to the next in u
+  std::uint32_t first_extraction_u, first_extraction_v;
 };
 
 /// Sides of a span beyond which the surface ends or is not smooth: bits of ImageSpan::ends. The edges of a patch with
 /// trim loops are none: there the face ends at its loops.
 inline constexpr std::uint32_t kEndsAtLowU = 1, kEndsAtHighU = 2, kEndsAtLowV = 4, kEndsAtHighV = 8;
 
-/// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, stands at
-/// coefficients[first_coefficient + 4 * (i * (degree_v + 1) + j)] as (w x, w y, w z, w); the coefficient of its Taylor
-/// form (taylor.hpp) of order i in s, j in t at taylor[] of the same index.
+/// One Bezier span. Control point (i, j), 0 <= i <= degree_u, 0 <= j <= degree_v, of those of the patch that it takes
+/// part in stands at points[4 (first_point + i points_v + j)] as (w x, w y, w z, w). The coefficient of its Taylor form
+/// (taylor.hpp) of order i in s, j in t, where the image holds these: taylor[4 (first_taylor + i (degree_v + 1) + j)].
 struct ImageSpan {
   std::uint32_t patch, iu, iv;
   std::uint32_t ends;       ///< kEndsAt... bits: edges of the patch and creases
   std::uint64_t joints[4];  ///< of these sides: a Joint a part, in rising parameter from the lowest bits on
-  std::uint64_t first_coefficient;
+  std::uint32_t first_point, first_taylor;
   double cone_axis[3];  ///< every outward normal of the span is within the cone about this unit axis
   double cone_cosine;   ///< cosine of the half angle; -1 where no bound is known
   /// No ball of this radius that touches the design from one side in this span, at whatever place but for `inset`,
@@ -74,8 +81,16 @@ struct ImageSpan {
 /// In spans, of ImageSpan::inset.
 inline constexpr double kInsetUnit = 1.0 / 256.0;
 
-/// Bounds of a rectangle of a span about its middle c: what lets most of them be judged without looking at control
-/// points. Vectors are in the frame of `axis`, whose first row is the normal in the middle.
+/// The upper half of a number in single precision: 8 bits of fraction, the sign and range of a float (bfloat16).
+using HalfFloat = std::uint16_t;
+[[nodiscard]] inline double from_half_float(HalfFloat x) {
+  return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(x) << 16U));
+}
+
+/// Bounds of a rectangle of a span about a place c near to its middle: what lets most of them be judged without looking at control
+/// points. Vectors are in the frame of `axis`, whose first row is the normal in the middle. All is rounded to few digits,
+/// so that the bounds hold for what is written here: the axes are a little shorter than 1, so that nothing is farther
+/// apart in them than it is.
 /// First derivatives are along the rectangle's own parameters s, t in 0..1, and across its sides: along the unit
 /// vectors that are perpendicular in the middle to the sides of constant s and of constant t. Their signs are what
 /// counts, so they are taken as such positive multiples that along themselves they stay what they are in the middle:
@@ -83,14 +98,15 @@ inline constexpr double kInsetUnit = 1.0 / 256.0;
 /// and Sb = stretch[1] St + stretch[2] Ss, which are orthonormal in the middle: there the Hessian of a squared distance
 /// is near to the unit matrix. Order: s, t, aa, ab, bb, across s, across t.
 struct ImageBounds {
-  double middle[3];         ///< c, in design coordinates [mm]
-  double axis[3][3];        ///< orthonormal, one a row
-  double low[3], high[3];   ///< axis[k] . (S - c) lies between these [mm]
-  double stretch[3];        ///< [1/mm]
-  double derivative[7][3];  ///< of S, in the middle [mm, mm, 1/mm ...]
-  double spread[7][3];      ///< no component of a derivative is farther from that in the middle
-  double self_low[7];       ///< the same derivatives of 1/2 |S - c|^2 lie between these [mm^2, mm^2, 1 ...]
-  double self_high[7];
+  float middle[3];            ///< c, in design coordinates [mm]
+  float axis[3][3];           ///< at right angles but for rounding, one a row
+  float stretch[3];           ///< [1/mm]
+  float derivative[7][3];     ///< of S, in the middle [mm, mm, 1/mm ...]
+  HalfFloat low[3], high[3];  ///< axis[k] . (S - c) lies between these [mm]
+  HalfFloat spread[7][3];     ///< no component of a derivative is farther from that in the middle
+  HalfFloat self_low[7];      ///< the same derivatives of 1/2 |S - c|^2 lie between these [mm^2, mm^2, 1 ...]
+  HalfFloat self_high[7];
+  HalfFloat spare;  ///< 0
 };
 
 /// A rectangle of a span, so small that its bounds are tight. The leaves of a span tile it; where the patch has trim
@@ -98,8 +114,9 @@ struct ImageBounds {
 struct ImageLeaf {
   std::uint32_t span;
   std::uint32_t node;                 ///< index of the node that it is a child of
-  double s_min, s_max, t_min, t_max;  ///< parameters of the span, 0..1
+  float s_min, s_max, t_min, t_max;  ///< parameters of the span, 0..1
   ImageBounds bounds;
+  std::uint32_t spare;  ///< 0
 };
 
 /// A piece of a trim loop, straight in the parameters of its patch, from its own start to that of the next one. It lies
@@ -140,8 +157,8 @@ struct ImageNode {
   std::uint32_t child[4];
 };
 
-static_assert(sizeof(ImageHeader) == 216 && sizeof(ImagePatch) == 48 && sizeof(ImageSpan) == 104 &&
-              sizeof(ImageBounds) == 616 && sizeof(ImageLeaf) == 656 && sizeof(ImageNode) == 112 &&
+static_assert(sizeof(ImageHeader) == 232 && sizeof(ImagePatch) == 56 && sizeof(ImageSpan) == 104 &&
+              sizeof(ImageBounds) == 228 && sizeof(ImageLeaf) == 256 && sizeof(ImageNode) == 112 &&
               sizeof(ImageTrim) == 80 && sizeof(ImageTrimRun) == 16 && sizeof(ImageSlab) == 8);
 
 /// CRC-32 of an image, its crc32 field taken as 0. Cost: linear in the size.
@@ -169,7 +186,8 @@ class DesignImage {
   [[nodiscard]] std::span<const ImageLeaf> leaves() const { return leaves_; }
   [[nodiscard]] std::span<const ImageNode> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const double> breaks() const { return breaks_; }
-  [[nodiscard]] std::span<const double> coefficients() const { return coefficients_; }
+  [[nodiscard]] std::span<const double> points() const { return points_; }  ///< four numbers each
+  [[nodiscard]] std::span<const double> extractions() const { return extractions_; }
   [[nodiscard]] std::span<const double> taylor() const { return taylor_; }
   [[nodiscard]] std::span<const ImageTrim> trims() const { return trims_; }
   [[nodiscard]] std::span<const ImageTrimRun> runs() const { return runs_; }
@@ -183,7 +201,7 @@ class DesignImage {
   std::span<const ImageLeaf> leaves_;
   std::span<const ImageNode> nodes_;
   std::span<const double> breaks_;
-  std::span<const double> coefficients_, taylor_;
+  std::span<const double> points_, extractions_, taylor_;
   std::span<const ImageTrim> trims_;
   std::span<const ImageTrimRun> runs_;
   std::span<const ImageSlab> slabs_;

@@ -19,12 +19,30 @@ SurfacePoint projected(const HomogeneousDerivatives& h) {
   return {p.a.head<3>(), p.a_u.head<3>(), p.a_v.head<3>(), p.a_uu.head<3>(), p.a_uv.head<3>(), p.a_vv.head<3>()};
 }
 
+void Surface::net(std::uint32_t span_index, BezierNet& out) const { bezier_net(image_, span(span_index), out); }
+
+void Surface::work_out_taylor(std::uint32_t span_index, double* room) const {
+  const SpanSource source = source_of(image_, span(span_index));
+  bezier_points(source, room);
+  to_taylor_form(source.degree_u, source.degree_v, room);
+}
+
 SurfacePoint Surface::evaluate(const SurfacePlace& place) const {
+  return holds_taylor() ? evaluate_form(place, taylor(place.span, nullptr)) : evaluate_worked_out(place);
+}
+
+// Apart, so that the room is taken from the stack where it is needed only.
+[[gnu::noinline]] SurfacePoint Surface::evaluate_worked_out(const SurfacePlace& place) const {
+  TaylorRoom room;
+  return evaluate_form(place, taylor(place.span, room.data()));
+}
+
+SurfacePoint Surface::evaluate_form(const SurfacePlace& place, const double* taylor) const {
   const ImagePatch& p = patch_of(place.span);
   const SpanDomain d = domain(place.span);
   const double scale_u = 1.0 / (d.u_max - d.u_min), scale_v = 1.0 / (d.v_max - d.v_min);
   HomogeneousDerivatives h;
-  evaluate_taylor(taylor(place.span), p.degree_u, p.degree_v, (place.u - d.u_min) * scale_u - 0.5,
+  evaluate_taylor(taylor, p.degree_u, p.degree_v, (place.u - d.u_min) * scale_u - 0.5,
                   (place.v - d.v_min) * scale_v - 0.5, h);
   return scaled(projected(h), scale_u, scale_v);
 }

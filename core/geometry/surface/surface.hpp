@@ -3,6 +3,7 @@
 
 #include "core/geometry/surface/design_image.hpp"
 #include "core/geometry/surface/foot.hpp"
+#include "core/geometry/surface/span_net.hpp"
 #include "core/geometry/surface/taylor.hpp"
 
 namespace bladefit {
@@ -15,6 +16,9 @@ struct SurfacePlace {
   std::uint32_t span = 0;
   double u = 0, v = 0;
 };
+
+/// Room for a Taylor form of any degrees.
+using TaylorRoom = std::array<double, 4 * kMaxOrder * kMaxOrder>;
 
 /// Position [mm] and derivatives with respect to the normalised patch parameters.
 struct SurfacePoint {
@@ -49,12 +53,16 @@ class Surface {
   [[nodiscard]] const ImagePatch& patch_of(std::uint32_t span_index) const {
     return image_.patches()[span(span_index).patch];
   }
-  [[nodiscard]] const double* net(std::uint32_t span_index) const {
-    return image_.coefficients().data() + span(span_index).first_coefficient;
-  }
-  /// Its Taylor form.
-  [[nodiscard]] const double* taylor(std::uint32_t span_index) const {
-    return image_.taylor().data() + span(span_index).first_coefficient;
+  /// The control points of a span's Bezier form. Cost: that of bezier_points().
+  void net(std::uint32_t span_index, BezierNet& out) const;
+  /// The image holds the Taylor forms of its spans.
+  [[nodiscard]] bool holds_taylor() const { return !image_.taylor().empty(); }
+  /// A span's Taylor form: the image's, or worked out into `room`, which then has to live as long. Cost: nothing, or
+  /// that of bezier_points() and to_taylor_form().
+  [[nodiscard]] const double* taylor(std::uint32_t span_index, double* room) const {
+    if (holds_taylor()) return image_.taylor().data() + 4U * static_cast<std::size_t>(span(span_index).first_taylor);
+    work_out_taylor(span_index, room);
+    return room;
   }
   [[nodiscard]] SpanDomain domain(std::uint32_t span_index) const {
     const ImageSpan& s = span(span_index);
@@ -96,6 +104,10 @@ class Surface {
   [[nodiscard]] const Vec3& middle() const { return middle_; }
 
  private:
+  void work_out_taylor(std::uint32_t span_index, double* room) const;
+  [[nodiscard]] SurfacePoint evaluate_form(const SurfacePlace& place, const double* taylor) const;
+  [[nodiscard]] SurfacePoint evaluate_worked_out(const SurfacePlace& place) const;
+
   DesignImage image_;
   double half_diagonal_;
   Vec3 middle_;

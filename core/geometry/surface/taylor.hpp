@@ -14,8 +14,8 @@ struct HomogeneousDerivatives {
   Homogeneous a, a_u, a_v, a_uu, a_uv, a_vv;
 };
 
-/// Writes the Taylor form of a net, 4 (degree_u + 1)(degree_v + 1) doubles. Compile time work.
-void taylor_form(const double* net, std::uint32_t degree_u, std::uint32_t degree_v, double* taylor);
+/// Turns a net, 4 (degree_u + 1)(degree_v + 1) doubles, into its Taylor form. Cost: some 200 ns for a bicubic span.
+void to_taylor_form(std::uint32_t degree_u, std::uint32_t degree_v, double* net);
 
 namespace taylor {
 

@@ -80,8 +80,8 @@ class TreeCheck {
     const ImageSpan& s = image_.spans()[leaf.span];
     const ImagePatch& p = image_.patches()[s.patch];
     BezierNet net;
-    restrict_net(&image_.coefficients()[s.first_coefficient], p.degree_u, p.degree_v,
-                 {leaf.s_min, leaf.s_max, leaf.t_min, leaf.t_max}, net);
+    bezier_net(image_, s, net);
+    restrict_net(rect_of(leaf), net);
     for (std::uint32_t n = 0; n < (p.degree_u + 1) * (p.degree_v + 1); ++n) {
       const Homogeneous& c = net.points[n];
       for (int axis = 0; axis < 3; ++axis) {

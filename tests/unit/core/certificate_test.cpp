@@ -106,10 +106,10 @@ LocalRect random_rect(std::mt19937_64& random) {
 /// A point near the piece or far from it, on any side, and a bound about its distance.
 void check_random_piece(const Surface& surface, std::mt19937_64& random, Claims& claims) {
   const SurfacePlace place = random_place(surface, random);
-  const ImagePatch& patch = surface.patch_of(place.span);
   const LocalRect rect = random_rect(random);
   BezierNet net;
-  restrict_net(surface.net(place.span), patch.degree_u, patch.degree_v, rect, net);
+  surface.net(place.span, net);
+  restrict_net(rect, net);
   const double reach = surface.half_diagonal() * std::exp2(-uniform(random, 0, 14));
   const Vec3 r = surface.evaluate(place).s + reach * random_direction_in_space(random);
   const DistanceRange range = distance_range(net, r);

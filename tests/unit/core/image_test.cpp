@@ -83,7 +83,7 @@ TEST(DesignImage, EveryDamagedByteIsRefused) {
 TEST(DesignImage, EveryForgedByteIsRefusedOrHarmless) {
   std::vector<std::byte> bytes = small_image();
   const auto* header = reinterpret_cast<const ImageHeader*>(bytes.data());
-  const std::size_t structure = header->coefficients_offset, first_net = structure + 512;
+  const std::size_t structure = header->points_offset, first_net = structure + 512;
   int accepted = 0;
   for (std::size_t k = 0; k < std::min(first_net, bytes.size()); ++k) {
     for (const int bit : {0, 7}) {
@@ -183,7 +183,8 @@ class Parts {
   [[nodiscard]] ImageNode* node() const { return at<ImageNode>(header()->nodes_offset); }
   [[nodiscard]] ImageNode& last_node() const { return node()[header()->node_count - 1]; }
   [[nodiscard]] double* taylor() const { return at<double>(header()->taylor_offset); }
-  [[nodiscard]] double* number() const { return at<double>(header()->coefficients_offset); }
+  [[nodiscard]] double* number() const { return at<double>(header()->points_offset); }
+  [[nodiscard]] double* share() const { return at<double>(header()->extractions_offset); }
 
  private:
   template <class T>
@@ -215,8 +216,14 @@ TEST(DesignImage, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([](Parts p) { p.span()->ends = 0; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->ends |= 256U; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->ends = (p.span()->ends & 15U) | ((~p.span()->ends & 15U) << 4U); }));
-  EXPECT_TRUE(refused([](Parts p) { p.span()->first_coefficient = ~std::uint64_t{0}; }));
-  EXPECT_TRUE(refused([](Parts p) { p.span()->first_coefficient = p.header()->coefficient_count - 4; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()->points_v = p.patch()->degree_v; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()->points_v = 0xFFFFFFFFU; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()->first_extraction_u = 0xFFFFFFFFU; }));
+  EXPECT_TRUE(refused([](Parts p) { p.patch()[1].first_extraction_v = p.header()->extraction_count - 1; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->first_point = 0xFFFFFFFFU; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->first_point = static_cast<std::uint32_t>(p.header()->point_count - 1); }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->first_taylor = 0xFFFFFFFFU; }));
+  EXPECT_TRUE(refused([](Parts p) { p.span()->first_taylor = static_cast<std::uint32_t>(p.header()->taylor_count / 4 - 1); }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->cone_cosine = NAN; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->reach[0] = NAN; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->reach[1] = INFINITY; }));
@@ -228,11 +235,11 @@ TEST(DesignImage, ContradictionsAreRefused) {
 TEST(DesignImage, ContradictoryLeavesAndNodesAreRefused) {
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->node = p.leaf()[1].node; }));
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->span = 1; }));
-  EXPECT_TRUE(refused([](Parts p) { p.leaf()->s_max = 0.75; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->s_max = 0.75F; }));
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->t_min = NAN; }));
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.middle[1] = INFINITY; }));
-  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.spread[4][2] = -1.0; }));
-  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.self_low[3] = 1e9; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.spread[4][2] = 0xBF80U; /* -1 */ }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.self_low[3] = 0x4E6EU; /* 1e9 */ }));
   EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = kNoChild; }));
   EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = 0; }));
   EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = 0x7FFFFFFFU; }));
@@ -246,6 +253,11 @@ TEST(DesignImage, ContradictoryLeavesAndNodesAreRefused) {
 
 TEST(DesignImage, ContradictoryNumbersAreRefused) {
   EXPECT_TRUE(refused([](Parts p) { p.taylor()[0] += 1e-6; }));
+  EXPECT_TRUE(refused([](Parts p) { p.share()[0] = NAN; }));
+  EXPECT_TRUE(refused([](Parts p) { p.share()[1] += 1e-6; }));
+  EXPECT_TRUE(refused([](Parts p) { p.share()[0] += 0.5, p.share()[1] -= 0.5; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->spare = 1; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.spare = 1; }));
   EXPECT_TRUE(refused([](Parts p) { p.taylor()[7] = NAN; }));
   EXPECT_TRUE(refused([](Parts p) { p.number()[0] = NAN; }));
   EXPECT_TRUE(refused([](Parts p) { p.number()[0] = 1e6; }));
@@ -259,9 +271,10 @@ TEST(DesignImage, ContradictoryHeadersAreRefused) {
   EXPECT_TRUE(refused([](Parts p) { p.header()->taylor_offset = ~std::uint64_t{7}; }));
   EXPECT_TRUE(refused([](Parts p) { p.header()->outward = 0; }));
   EXPECT_TRUE(refused([](Parts p) { p.header()->design_unit = 2; }));
-  EXPECT_TRUE(refused([](Parts p) { p.header()->spare = 1; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->extractions_offset = ~std::uint64_t{7}; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->extraction_count = 0; }));
   EXPECT_TRUE(refused([](Parts p) { p.header()->nodes_offset = ~std::uint64_t{7}; }));
-  EXPECT_TRUE(refused([](Parts p) { p.header()->coefficient_count = ~std::uint64_t{0}; }));
+  EXPECT_TRUE(refused([](Parts p) { p.header()->point_count = ~std::uint64_t{0}; }));
   EXPECT_TRUE(refused([](Parts p) { p.header()->patches_offset += 4; }));
   EXPECT_TRUE(refused([](Parts p) { p.header()->span_count = 0; }));
 }

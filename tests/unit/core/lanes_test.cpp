@@ -134,7 +134,7 @@ TEST_P(Lanes, OfOnePointAreItsBits) {
   for (const double apart : {1e-5, 0.02}) {
     for (const Task& one : tasks(apart)) {
       SpanTask task;
-      task.taylor = surface_.taylor(one.start.span);
+      task.taylor = surface_.taylor(one.start.span, nullptr);
       task.degree_u = task.degree_v = 3;
       for (int k = 0; k < 3; ++k) task.r[k] = one.r[k];
       task.last_step = kLastStep * frame_.length;

@@ -18,12 +18,15 @@ class LeafBounds : public ::testing::TestWithParam<std::string> {};
 /// The surface at (s, t) of the leaf, with derivatives in these.
 SurfacePoint at(const Surface& surface, const ImageLeaf& leaf, double s, double t) {
   const SpanDomain d = surface.domain(leaf.span);
-  const double across_u = (leaf.s_max - leaf.s_min) * (d.u_max - d.u_min);
-  const double across_v = (leaf.t_max - leaf.t_min) * (d.v_max - d.v_min);
-  const double u = d.u_min + (leaf.s_min + s * (leaf.s_max - leaf.s_min)) * (d.u_max - d.u_min);
-  const double v = d.v_min + (leaf.t_min + t * (leaf.t_max - leaf.t_min)) * (d.v_max - d.v_min);
+  const LocalRect rect = rect_of(leaf);
+  const double across_u = (rect.s_max - rect.s_min) * (d.u_max - d.u_min);
+  const double across_v = (rect.t_max - rect.t_min) * (d.v_max - d.v_min);
+  const double u = d.u_min + (rect.s_min + s * (rect.s_max - rect.s_min)) * (d.u_max - d.u_min);
+  const double v = d.v_min + (rect.t_min + t * (rect.t_max - rect.t_min)) * (d.v_max - d.v_min);
   return scaled(surface.evaluate({leaf.span, u, v}), across_u, across_v);
 }
+
+Vec3 vector_of(const float (&x)[3]) { return {x[0], x[1], x[2]}; }
 
 /// The derivatives s, t, aa, ab, bb of 1/2 |r - S|^2 there.
 std::array<double, 5> derivatives(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, double s, double t) {
@@ -31,7 +34,8 @@ std::array<double, 5> derivatives(const Surface& surface, const ImageLeaf& leaf,
   const Vec3 e = p.s - r;
   const double ss = p.s_u.squaredNorm() + e.dot(p.s_uu), st = p.s_u.dot(p.s_v) + e.dot(p.s_uv),
                tt = p.s_v.squaredNorm() + e.dot(p.s_vv);
-  const double alpha = leaf.bounds.stretch[0], beta = leaf.bounds.stretch[1], gamma = leaf.bounds.stretch[2];
+  const Vec3 stretch = vector_of(leaf.bounds.stretch);
+  const double alpha = stretch[0], beta = stretch[1], gamma = stretch[2];
   return {e.dot(p.s_u), e.dot(p.s_v), alpha * alpha * ss, alpha * beta * st + alpha * gamma * ss,
           beta * beta * tt + 2.0 * beta * gamma * st + gamma * gamma * ss};
 }
@@ -40,8 +44,8 @@ std::array<double, 5> derivatives(const Surface& surface, const ImageLeaf& leaf,
 std::array<double, 2> slopes(const ImageLeaf& leaf, const SurfacePoint& middle, const std::array<double, 5>& found) {
   const Vec3 across = middle.s_u - middle.s_u.dot(middle.s_v) / middle.s_v.squaredNorm() * middle.s_v;
   const double along_t = -middle.s_u.dot(middle.s_v) / middle.s_v.squaredNorm();
-  return {(found[0] + along_t * found[1]) / across.norm(),
-          leaf.bounds.stretch[1] * found[1] + leaf.bounds.stretch[2] * found[0]};
+  const Vec3 stretch = vector_of(leaf.bounds.stretch);
+  return {(found[0] + along_t * found[1]) / across.norm(), stretch[1] * found[1] + stretch[2] * found[0]};
 }
 
 void check_leaf(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, std::mt19937_64& random) {
@@ -49,7 +53,6 @@ void check_leaf(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, st
   const DerivativeRanges ranges = derivative_ranges(leaf.bounds, w);
   const double least = least_distance(leaf.bounds, w);
   const std::array<ValueRange, 5> expected{ranges.u, ranges.v, ranges.uu, ranges.uv, ranges.vv};
-  const SpanDomain d = surface.domain(leaf.span);
   const SurfacePoint middle = at(surface, leaf, 0.5, 0.5);
   std::array<bool, 2> rises{true, true}, falls{true, true};
   for (int k = 0; k < 20; ++k) {
@@ -57,7 +60,8 @@ void check_leaf(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, st
     const auto parameter = [&] { return std::clamp(uniform(random, -0.3, 1.3), 0.0, 1.0); };
     const double s = parameter(), t = parameter();
     const std::array<double, 5> found = derivatives(surface, leaf, r, s, t);
-    const double k_t = leaf.bounds.stretch[2] / leaf.bounds.stretch[0];
+    const Vec3 stretch = vector_of(leaf.bounds.stretch);
+    const double k_t = stretch[2] / stretch[0];
     const double along_t = found[4] - 2.0 * k_t * found[3] + k_t * k_t * found[2];
     const ValueRange tt = ranges_along_t(leaf.bounds, ranges).vv;
     RC_ASSERT(along_t >= tt.least - 1e-10 * (std::abs(tt.least) + std::abs(tt.most)));
@@ -74,9 +78,7 @@ void check_leaf(const Surface& surface, const ImageLeaf& leaf, const Vec3& r, st
       RC_ASSERT(found[i] >= expected[i].least - rounding);
       RC_ASSERT(found[i] <= expected[i].most + rounding);
     }
-    const double u = d.u_min + (leaf.s_min + s * (leaf.s_max - leaf.s_min)) * (d.u_max - d.u_min);
-    const double v = d.v_min + (leaf.t_min + t * (leaf.t_max - leaf.t_min)) * (d.v_max - d.v_min);
-    RC_ASSERT((r - surface.evaluate({leaf.span, u, v}).s).norm() >= least * (1.0 - 1e-12) - 1e-12);
+    RC_ASSERT((r - at(surface, leaf, s, t).s).norm() >= least * (1.0 - 1e-12) - 1e-12);
   }
   if (slopes_across(leaf.bounds, w)) RC_ASSERT(rises[0] || falls[0] || rises[1] || falls[1]);
 }
@@ -88,7 +90,7 @@ TEST_P(LeafBounds, HoldEverySample) {
     std::mt19937_64 random(*rc::gen::noShrink(rc::gen::arbitrary<std::uint64_t>()));
     const ImageLeaf& leaf = leaves[random() % leaves.size()];
     const double off = design.size() * std::exp2(-uniform(random, 0, 20));
-    check_leaf(design.surface(), leaf, Vec3(leaf.bounds.middle) + off * random_direction_in_space(random), random);
+    check_leaf(design.surface(), leaf, vector_of(leaf.bounds.middle) + off * random_direction_in_space(random), random);
   }));
 }
 

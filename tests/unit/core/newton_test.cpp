@@ -19,9 +19,10 @@ TEST(TaylorForm, IsThePolynomialOfItsControlNet) {
   std::mt19937_64 random(2718);
   for (std::uint32_t p = 1; p <= kMaxDegree; ++p) {
     for (std::uint32_t q = 1; q <= kMaxDegree; ++q) {
-      std::vector<double> net(4 * (p + 1) * (q + 1)), form(net.size());
+      std::vector<double> net(4 * (p + 1) * (q + 1));
       for (double& coordinate : net) coordinate = uniform(random, -1, 1);
-      taylor_form(net.data(), p, q, form.data());
+      std::vector<double> form = net;
+      to_taylor_form(p, q, form.data());
       for (const auto& [s, t] :
            {std::array{0.5, 0.5}, {0.0, 0.0}, {1.0, 0.0}, {0.3, 1.0}, {uniform(random, 0, 1), 0.7}}) {
         HomogeneousDerivatives found;

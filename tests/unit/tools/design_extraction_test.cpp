@@ -167,7 +167,8 @@ int depth_of(const std::vector<ImageNode>& nodes, std::size_t node, std::vector<
 TEST(DesignExtraction, TreeHoldsEveryLeafAndIsNotDeep) {
   for (const std::size_t count : {1U, 2U, 4U, 5U, 1000U}) {
     for (const double spread : {0.01, 1.0, 10.0, 300.0}) {
-      const std::vector<ImageNode> nodes = build_bounding_tree(scattered_boxes(count, spread));
+      const std::vector<Box> boxes = scattered_boxes(count, spread);
+      const std::vector<ImageNode> nodes = build_bounding_tree(boxes, box_around(boxes));
       std::vector<int> met(count, 0);
       EXPECT_LE(depth_of(nodes, 0, met), count <= 4 ? 1 : 26) << count << " boxes, spread " << spread;
       EXPECT_EQ(met, std::vector<int>(count, 1));

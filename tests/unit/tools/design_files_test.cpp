@@ -73,10 +73,10 @@ TEST(DesignFiles, EveryCaseCompilesAndTwinsAgree) {
     EXPECT_EQ(image.header().design_unit, facts["units"] == "in" ? 1U : 0U) << name;
     EXPECT_EQ(image.patches().size(), facts["design"]["patches"].size()) << name;
     EXPECT_EQ(iges.notes.size(), 1U) << name;
-    ASSERT_EQ(image.coefficients().size(), twin.coefficients().size()) << name;
+    ASSERT_EQ(image.points().size(), twin.points().size()) << name;
     const double tolerance = 1e-12 * testing::image_size(image);
-    for (std::size_t k = 0; k < image.coefficients().size(); ++k) {
-      ASSERT_NEAR(image.coefficients()[k], twin.coefficients()[k], tolerance) << name;
+    for (std::size_t k = 0; k < image.points().size(); ++k) {
+      ASSERT_NEAR(image.points()[k], twin.points()[k], tolerance) << name;
     }
     EXPECT_EQ(testing::check_cones(image, 3), 0) << name;
   }

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "core/geometry/surface/design_image.hpp"
+#include "core/geometry/surface/span_net.hpp"
 
 namespace bladefit::testing {
 
@@ -15,7 +15,8 @@ struct SpanPoint {
 
 inline SpanPoint evaluate_span(const DesignImage& image, const ImageSpan& span, double s, double t) {
   const ImagePatch& patch = image.patches()[span.patch];
-  const double* net = &image.coefficients()[span.first_coefficient];
+  BezierNet net;
+  bezier_net(image, span, net);
   using Homogeneous = Eigen::Matrix<long double, 4, 1>;
   struct Jet {
     Homogeneous value, slope;
@@ -33,7 +34,7 @@ inline SpanPoint evaluate_span(const DesignImage& image, const ImageSpan& span, 
   for (std::uint32_t i = 0; i <= patch.degree_u; ++i) {
     std::vector<Homogeneous> row;
     for (std::uint32_t j = 0; j <= patch.degree_v; ++j) {
-      row.push_back(Eigen::Vector4d(net + 4 * (i * (patch.degree_v + 1) + j)).cast<long double>());
+      row.push_back(net.at(i, j).matrix().cast<long double>());
     }
     const Jet jet = reduce(row, t);
     values.push_back(jet.value);

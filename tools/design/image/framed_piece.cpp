@@ -2,9 +2,10 @@
 
 namespace bladefit {
 
-FramedPiece::FramedPiece(const BezierSpan& span, const LocalRect& rect, const PieceFrame& frame, PieceScale scale)
+FramedPiece::FramedPiece(const BezierNet& whole, const LocalRect& rect, const PieceFrame& frame, PieceScale scale)
     : scale_(scale) {
-  restrict_net(span.net, span.degree_u, span.degree_v, rect, net_);
+  copy_net(whole, net_);
+  restrict_net(rect, net_);
   // As a map, which Eigen sums up in the same order everywhere: images are the same to the last bit.
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(frame.axes.data());
   const Homogeneous& corner = net_.at(net_.degree_u / 2, net_.degree_v / 2);

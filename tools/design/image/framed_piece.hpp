@@ -30,7 +30,8 @@ struct PieceRange {
 /// A rectangle of a span: its net in a frame, moved to an origin of its own.
 class FramedPiece {
  public:
-  FramedPiece(const BezierSpan& span, const LocalRect& rect, const PieceFrame& frame, PieceScale scale);
+  /// `whole`: the net of the span.
+  FramedPiece(const BezierNet& whole, const LocalRect& rect, const PieceFrame& frame, PieceScale scale);
 
   /// By the control points of the homogeneous derivatives, and the quotient rule on A / w with intervals; small because
   /// A is taken about the piece's own origin. Cost: some microseconds for a bicubic span.

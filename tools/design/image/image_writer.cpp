@@ -9,7 +9,9 @@
 #include <string>
 
 #include "tools/design/image/creases.hpp"
+#include "tools/design/image/image_parts.hpp"
 #include "tools/design/image/joints.hpp"
+#include "tools/design/image/leaf_choice.hpp"
 #include "tools/design/image/span_bounding.hpp"
 #include "tools/design/image/tree_builder.hpp"
 #include "tools/design/image/trim_pieces.hpp"
@@ -19,20 +21,16 @@
 namespace bladefit {
 namespace {
 
-/// The arrays of an image while it is being put together.
-struct ImageParts {
-  std::vector<ImagePatch> patches;
-  std::vector<ImageSpan> spans;
-  std::vector<ImageNode> nodes;
-  std::vector<double> breaks;
-  std::vector<double> coefficients, taylor;
-  std::vector<ImageLeaf> leaves;
-  std::vector<Box> boxes;  ///< one a leaf
-  TrimParts trims;
-};
-
 /// A leaf is to tell of points this near to the surface [half diagonals of the control points' box].
 constexpr double kNear = 5e-3;
+
+/// Bytes that an image may have, in those of its control points.
+constexpr std::uint64_t kPointBytes = 4 * sizeof(double);
+constexpr std::uint64_t times_of_points(ImageSize size) { return size == ImageSize::compact ? 20 : 40; }
+/// Bytes of a leaf with its share of the nodes, of which there is about one to two leaves.
+constexpr std::uint64_t kLeafBytes = sizeof(ImageLeaf) + sizeof(ImageNode) / 2;
+/// Tries until an image is as small as it may be.
+constexpr int kMostTries = 16;
 
 /// Half the diagonal of the box of all control points [mm].
 double half_diagonal(const std::vector<NurbsSurface>& surfaces) {
@@ -43,20 +41,11 @@ double half_diagonal(const std::vector<NurbsSurface>& surfaces) {
   return 0.5 * box.diagonal().norm();
 }
 
-std::uint32_t append_breaks(const std::vector<double>& breaks, ImageParts& parts) {
-  const auto first = static_cast<std::uint32_t>(parts.breaks.size());
-  parts.breaks.insert(parts.breaks.end(), breaks.begin(), breaks.end());
+/// Appends numbers and says where they begin.
+std::uint32_t append(const std::vector<double>& numbers, std::vector<double>& to) {
+  const auto first = static_cast<std::uint32_t>(to.size());
+  to.insert(to.end(), numbers.begin(), numbers.end());
   return first;
-}
-
-void append_leaves(const SpanBounding& bounding, const TrimmedSpan& face, ImageParts& parts) {
-  for (std::size_t k = 0; k < bounding.leaves.size(); ++k) {
-    ImageLeaf leaf = bounding.leaves[k];
-    if (!face.reaches({leaf.s_min, leaf.s_max, leaf.t_min, leaf.t_max})) continue;
-    leaf.span = static_cast<std::uint32_t>(parts.spans.size());
-    parts.leaves.push_back(leaf);
-    parts.boxes.push_back(bounding.boxes[k]);
-  }
 }
 
 /// Trim loops lie in leaves, whose boxes may be the tighter.
@@ -78,30 +67,32 @@ std::uint32_t creases_only(std::uint32_t ends, const ImageSpan& span, const Bezi
   return ends;
 }
 
-void append_spans(const BezierPatch& bezier, const std::vector<TrimLoop>& loops, int outward, double near,
-                  ImageSize size, ImageParts& parts) {
-  const auto patch = static_cast<std::uint32_t>(parts.patches.size());
-  const std::size_t first = parts.coefficients.size();
+void append_spans(const BezierPatch& bezier, const std::vector<TrimLoop>& loops, const ImagePatch& patch,
+                  std::vector<SpanBounding> boundings, ImageParts& parts, std::vector<LeafTree>& trees) {
+  const std::uint32_t first_point = append(bezier.points, parts.points) / 4,
+                      first_taylor = append(bezier.taylor, parts.taylor) / 4;
   std::size_t k = 0;
-  for (const SpanBounding& bounding : bound_spans(bezier, outward, near, size)) {
+  for (SpanBounding& bounding : boundings) {
     ImageSpan span{};
-    span.patch = patch;
-    span.iu = static_cast<std::uint32_t>(k / bezier.spans_v());
-    span.iv = static_cast<std::uint32_t>(k % bezier.spans_v());
-    span.first_coefficient = first + k * bezier.span_size();
+    span.patch = static_cast<std::uint32_t>(parts.patches.size());
+    span.iu = static_cast<std::uint32_t>(k / patch.spans_v);
+    span.iv = static_cast<std::uint32_t>(k % patch.spans_v);
+    span.first_point = first_point + static_cast<std::uint32_t>(bezier.first_point(k));
+    span.first_taylor = first_taylor + static_cast<std::uint32_t>(k * bezier.span_size() / 4);
     std::copy(bounding.cone.axis.begin(), bounding.cone.axis.end(), span.cone_axis);
     span.cone_cosine = bounding.cone.cosine;
     span.ends = span_ends(bezier, span.iu, span.iv);
     if (!loops.empty()) span.ends = creases_only(span.ends, span, bezier);
-    append_leaves(bounding, TrimmedSpan(loops, bezier, span.iu, span.iv), parts);
+    const TrimmedSpan face(loops, bezier, span.iu, span.iv);
+    for (LeafCandidate& candidate : bounding.leaves) candidate.on_face = face.reaches(rect_of(candidate.leaf));
+    trees.push_back(std::move(bounding.leaves));
     parts.spans.push_back(span);
     ++k;
   }
-  parts.coefficients.insert(parts.coefficients.end(), bezier.coefficients.begin(), bezier.coefficients.end());
-  parts.taylor.insert(parts.taylor.end(), bezier.taylor.begin(), bezier.taylor.end());
 }
 
-void append_patch(const NurbsSurface& surface, int outward, double near, ImageSize size, ImageParts& parts) {
+void append_patch(const NurbsSurface& surface, int outward, double near, ImageSize size, ImageParts& parts,
+                  std::vector<LeafTree>& trees) {
   const BezierPatch bezier = extract_bezier(surface);
   ImagePatch patch{};
   patch.degree_u = static_cast<std::uint32_t>(bezier.degree_u);
@@ -109,55 +100,70 @@ void append_patch(const NurbsSurface& surface, int outward, double near, ImageSi
   patch.spans_u = static_cast<std::uint32_t>(bezier.spans_u());
   patch.spans_v = static_cast<std::uint32_t>(bezier.spans_v());
   patch.first_span = static_cast<std::uint32_t>(parts.spans.size());
-  patch.first_break_u = append_breaks(bezier.breaks_u, parts);
-  patch.first_break_v = append_breaks(bezier.breaks_v, parts);
+  patch.first_break_u = append(bezier.breaks_u, parts.breaks);
+  patch.first_break_v = append(bezier.breaks_v, parts.breaks);
   patch.rational = bezier.rational ? 1 : 0;
   patch.reversed = surface.reversed ? 1 : 0;
+  patch.points_v = static_cast<std::uint32_t>(bezier.points_v);
+  patch.first_extraction_u = append(bezier.along_u.shares, parts.extractions);
+  patch.first_extraction_v = append(bezier.along_v.shares, parts.extractions);
   patch.first_slab = static_cast<std::uint32_t>(parts.trims.slabs.size());
   const std::vector<TrimLoop> loops = pieces_of(surface.trims, bezier);
   append_trims(loops, bezier, patch.first_span, parts.trims);
   patch.slab_count = static_cast<std::uint32_t>(parts.trims.slabs.size()) - patch.first_slab;
-  append_spans(bezier, loops, surface.reversed ? -outward : outward, near, size, parts);
+  append_spans(bezier, loops, patch, bound_spans(bezier, surface.reversed ? -outward : outward, near, size), parts,
+               trees);
   parts.patches.push_back(patch);
 }
 
-ImageHeader make_header(const ImageParts& parts, DesignUnit unit, int outward) {
-  ImageHeader header{};
-  std::memcpy(header.magic, kImageMagic, sizeof kImageMagic);
-  header.version = kImageVersion;
-  header.design_unit = static_cast<std::uint32_t>(unit);
-  header.outward = outward;
-  header.patch_count = static_cast<std::uint32_t>(parts.patches.size());
-  header.span_count = static_cast<std::uint32_t>(parts.spans.size());
-  header.leaf_count = static_cast<std::uint32_t>(parts.leaves.size());
-  header.node_count = static_cast<std::uint32_t>(parts.nodes.size());
-  header.break_count = static_cast<std::uint32_t>(parts.breaks.size());
-  header.coefficient_count = parts.coefficients.size();
-  header.trim_count = static_cast<std::uint32_t>(parts.trims.pieces.size());
-  header.run_count = static_cast<std::uint32_t>(parts.trims.runs.size());
-  header.slab_count = static_cast<std::uint32_t>(parts.trims.slabs.size());
-  header.slab_trim_count = static_cast<std::uint32_t>(parts.trims.slab_trims.size());
-  header.patches_offset = sizeof(ImageHeader);
-  header.spans_offset = header.patches_offset + parts.patches.size() * sizeof(ImagePatch);
-  header.leaves_offset = header.spans_offset + parts.spans.size() * sizeof(ImageSpan);
-  header.nodes_offset = header.leaves_offset + parts.leaves.size() * sizeof(ImageLeaf);
-  header.breaks_offset = header.nodes_offset + parts.nodes.size() * sizeof(ImageNode);
-  header.coefficients_offset = header.breaks_offset + parts.breaks.size() * sizeof(double);
-  header.taylor_offset = header.coefficients_offset + parts.coefficients.size() * sizeof(double);
-  header.trims_offset = header.taylor_offset + parts.taylor.size() * sizeof(double);
-  header.runs_offset = header.trims_offset + parts.trims.pieces.size() * sizeof(ImageTrim);
-  header.slabs_offset = header.runs_offset + parts.trims.runs.size() * sizeof(ImageTrimRun);
-  header.slab_trims_offset = header.slabs_offset + parts.trims.slabs.size() * sizeof(ImageSlab);
-  header.total_size = header.slab_trims_offset + (parts.trims.slab_trims.size() + 1) / 2 * 8;
-  const Box whole = box_around(parts.boxes);
-  std::copy_n(whole.min, 3, header.box_min);
-  std::copy_n(whole.max, 3, header.box_max);
-  return header;
+/// Around whole spans, so that it does not depend on how these are cut.
+Box box_of(const std::vector<LeafTree>& trees) {
+  std::vector<Box> boxes;
+  for (const LeafTree& tree : trees) {
+    if (tree.front().on_face) boxes.push_back(tree.front().box);
+  }
+  return box_around(boxes);
 }
 
-template <class Element>
-void copy_array(const std::vector<Element>& array, std::uint64_t offset, std::vector<std::byte>& image) {
-  if (!array.empty()) std::memcpy(image.data() + offset, array.data(), array.size() * sizeof(Element));
+/// Puts the chosen leaves into the image, with the tree over them and the trim loops.
+void put_leaves(const LeafChoice& choice, const std::vector<LeafTree>& trees, const Box& whole, ImageParts& parts) {
+  parts.leaves.clear();
+  std::vector<Box> boxes;
+  for (std::size_t span = 0; span < trees.size(); ++span) {
+    for (const std::size_t k : choice[span]) {
+      parts.leaves.push_back(trees[span][k].leaf);
+      parts.leaves.back().span = static_cast<std::uint32_t>(span);
+      boxes.push_back(trees[span][k].box);
+    }
+  }
+  const Box around = box_around(boxes);
+  for (const Box& run : parts.trims.boxes) boxes.push_back(common_to(run, around));
+  parts.nodes = build_bounding_tree(boxes, whole);
+  for (std::uint32_t k = 0; k < parts.nodes.size(); ++k) {
+    for (const std::uint32_t child : parts.nodes[k].child) {
+      if (child == kNoChild || (child & kLeafChild) == 0) continue;
+      const std::size_t index = child & ~kLeafChild;
+      (index < parts.leaves.size() ? parts.leaves[index].node : parts.trims.runs[index - parts.leaves.size()].node) = k;
+    }
+  }
+}
+
+/// Leaves out what is a matter of speed alone, Taylor forms and cuts of leaves, as far as the image is too large.
+void fit_size(std::uint64_t most_bytes, ImageSize size, const std::vector<LeafTree>& trees, const Box& whole,
+              ImageParts& parts) {
+  const std::size_t fewest = fewest_leaves(trees);
+  if (size == ImageSize::compact || size_of(parts) + fewest * kLeafBytes > most_bytes) {
+    parts.taylor.clear();
+    for (ImageSpan& span : parts.spans) span.first_taylor = 0;
+  }
+  const std::uint64_t others = size_of(parts);
+  std::size_t most = most_bytes > others ? static_cast<std::size_t>((most_bytes - others) / kLeafBytes) : 0;
+  for (int k = 0; k < kMostTries; ++k) {
+    put_leaves(choose_leaves(trees, most), trees, whole, parts);
+    const std::uint64_t bytes = size_of(parts);
+    if (bytes <= most_bytes || parts.leaves.size() == fewest) return;
+    most = parts.leaves.size() - std::min(parts.leaves.size(), std::size_t{1} + (bytes - most_bytes) / kLeafBytes);
+  }
 }
 
 }  // namespace
@@ -177,35 +183,19 @@ void seal_image(std::vector<std::byte>& image) {
 std::vector<std::byte> write_image(const std::vector<NurbsSurface>& surfaces, DesignUnit unit, int outward,
                                    ImageSize size) {
   ImageParts parts;
+  std::vector<LeafTree> trees;
   const double near = kNear * half_diagonal(surfaces);
-  for (const NurbsSurface& surface : surfaces) append_patch(surface, outward, near, size, parts);
-  if (parts.leaves.size() + parts.trims.runs.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
+  std::uint64_t points = 0;
+  for (const NurbsSurface& surface : surfaces) {
+    append_patch(surface, outward, near, size, parts, trees);
+    points += surface.control_points.size();
+  }
+  if (trees.size() + parts.trims.runs.size() + parts.taylor.size() > std::numeric_limits<std::uint32_t>::max() / 4) {
     throw ToolError("the design has too many knot spans; export the blade with fewer knots");
   }
-  const Box leaves = box_around(parts.boxes);
-  for (const Box& run : parts.trims.boxes) parts.boxes.push_back(common_to(run, leaves));
-  parts.nodes = build_bounding_tree(parts.boxes);
-  for (std::uint32_t k = 0; k < parts.nodes.size(); ++k) {
-    for (const std::uint32_t child : parts.nodes[k].child) {
-      if (child == kNoChild || (child & kLeafChild) == 0) continue;
-      const std::size_t index = child & ~kLeafChild;
-      (index < parts.leaves.size() ? parts.leaves[index].node : parts.trims.runs[index - parts.leaves.size()].node) = k;
-    }
-  }
-  const ImageHeader header = make_header(parts, unit, outward);
-  std::vector<std::byte> image(header.total_size);
-  std::memcpy(image.data(), &header, sizeof header);
-  copy_array(parts.patches, header.patches_offset, image);
-  copy_array(parts.spans, header.spans_offset, image);
-  copy_array(parts.leaves, header.leaves_offset, image);
-  copy_array(parts.nodes, header.nodes_offset, image);
-  copy_array(parts.breaks, header.breaks_offset, image);
-  copy_array(parts.coefficients, header.coefficients_offset, image);
-  copy_array(parts.taylor, header.taylor_offset, image);
-  copy_array(parts.trims.pieces, header.trims_offset, image);
-  copy_array(parts.trims.runs, header.runs_offset, image);
-  copy_array(parts.trims.slabs, header.slabs_offset, image);
-  copy_array(parts.trims.slab_trims, header.slab_trims_offset, image);
+  const Box whole = box_of(trees);
+  fit_size(times_of_points(size) * kPointBytes * points, size, trees, whole, parts);
+  std::vector<std::byte> image = assembled(parts, unit, outward, whole);
   seal_image(image);
   mark_joints(image);
   seal_image(image);

@@ -5,6 +5,7 @@
 
 #include "core/geometry/surface/surface.hpp"
 #include "tools/design/image/framed_piece.hpp"
+#include "tools/design/image/leaf_packing.hpp"
 
 namespace bladefit {
 namespace {
@@ -14,8 +15,10 @@ constexpr int kPieces = 2;
 /// Widening against rounding, of the size of what is bounded.
 constexpr double kWidening = 1e-12;
 
+/// A stretch is no more than this, so that second derivatives stay numbers of single precision [1/mm].
+constexpr double kMostStretch = 1e12;
+
 /// Those of the bounds: s, t, aa, ab, bb, across s, across t.
-constexpr std::size_t kDerivatives = 7;
 template <class Value>
 using Derivatives = std::array<Value, kDerivatives>;
 
@@ -26,7 +29,7 @@ struct AcrossS {
   explicit AcrossS(const SurfacePoint& middle) {
     const double square = middle.s_v.squaredNorm(), share = square > 0.0 ? middle.s_u.dot(middle.s_v) / square : 0.0;
     const double length = (middle.s_u - share * middle.s_v).norm();
-    along_s = length > 0.0 ? 1.0 / length : 1.0;
+    along_s = length * kMostStretch > 1.0 ? 1.0 / length : 1.0;
     along_t = -share * along_s;
   }
 };
@@ -47,12 +50,13 @@ Derivatives<Value> stretched(const double (&stretch)[3], const AcrossS& across, 
 
 /// The frame: normal, direction of Ss, or of St where the leaf is hair-thin and lies along that, and the third; the
 /// coordinate axes where the parametrisation is degenerate.
-void set_frame(const SurfacePoint& middle, ImageBounds& bounds) {
+void set_frame(const SurfacePoint& middle, LeafBounds& bounds) {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   bounds.stretch[0] = bounds.stretch[1] = 1.0;
   bounds.stretch[2] = 0.0;
   const Vec3 normal = middle.s_u.cross(middle.s_v);
-  if (normal.norm() > 1e-6 * middle.s_u.norm() * middle.s_v.norm()) {
+  const bool slow = std::min(middle.s_u.norm(), middle.s_v.norm()) * kMostStretch < 1.0;
+  if (!slow && normal.norm() > 1e-6 * middle.s_u.norm() * middle.s_v.norm()) {
     const Vec3 along = middle.s_u.normalized();
     axes.row(0) = normal.normalized();
     axes.row(1) = along;
@@ -62,21 +66,21 @@ void set_frame(const SurfacePoint& middle, ImageBounds& bounds) {
       axes.row(1) = middle.s_v.normalized();
       axes.row(2) = normal.normalized().cross(middle.s_v.normalized());
     }
-    bounds.stretch[0] = 1.0 / middle.s_u.norm();
-    bounds.stretch[1] = 1.0 / across.dot(middle.s_v);
-    bounds.stretch[2] = -bounds.stretch[0] * bounds.stretch[1] * along.dot(middle.s_v);
+    bounds.stretch[0] = in_single(1.0 / middle.s_u.norm());
+    bounds.stretch[1] = in_single(1.0 / across.dot(middle.s_v));
+    bounds.stretch[2] = in_single(-bounds.stretch[0] * bounds.stretch[1] * along.dot(middle.s_v));
   }
   for (int k = 0; k < 3; ++k) {
     for (int j = 0; j < 3; ++j) bounds.axis[k][j] = axes(k, j);
   }
 }
 
-void set_middle(const SurfacePoint& middle, ImageBounds& bounds) {
+void set_middle(const SurfacePoint& middle, LeafBounds& bounds) {
   set_frame(middle, bounds);
   const Derivatives<Vec3> derivatives =
       stretched<Vec3>(bounds.stretch, AcrossS(middle), {middle.s_u, middle.s_v, middle.s_uu, middle.s_uv, middle.s_vv});
   for (int k = 0; k < 3; ++k) {
-    bounds.middle[k] = middle.s[k];
+    bounds.middle[k] = in_single(middle.s[k]);
     bounds.low[k] = kNothing.low;
     bounds.high[k] = kNothing.high;
     for (std::size_t d = 0; d < kDerivatives; ++d) {
@@ -121,7 +125,7 @@ IntervalVector turned(const IntervalVector& derivative, const Vec3& middle) {
 
 /// The derivatives of 1/2 |S - c|^2 over a piece, whose derivatives of S are `range`. (S - c) . D is that with D as in
 /// the middle, which the control points bound well, and the little that D differs.
-Derivatives<Interval> self_range(const FramedPiece& piece, const ImageBounds& bounds, const IntervalVector& arm,
+Derivatives<Interval> self_range(const FramedPiece& piece, const LeafBounds& bounds, const IntervalVector& arm,
                                  const Derivatives<IntervalVector>& range) {
   Derivatives<Interval> self;
   for (std::size_t d = 0; d < kDerivatives; ++d) {
@@ -133,7 +137,7 @@ Derivatives<Interval> self_range(const FramedPiece& piece, const ImageBounds& bo
   return self;
 }
 
-void include_piece(const FramedPiece& piece, const AcrossS& across, ImageBounds& bounds) {
+void include_piece(const FramedPiece& piece, const AcrossS& across, LeafBounds& bounds) {
   PieceRange range = piece.range();
   for (std::size_t k = 0; k < 3; ++k) {
     range.place[k] = range.place[k] + piece.origin()[static_cast<Eigen::Index>(k)];
@@ -172,14 +176,15 @@ ImageBounds leaf_bounds(const BezierSpan& span, const LocalRect& rect) {
   const auto at_t = [&](double x) { return rect.t_min + x * (rect.t_max - rect.t_min); };
   HomogeneousDerivatives h;
   evaluate_taylor(span.taylor, span.degree_u, span.degree_v, at_s(0.5) - 0.5, at_t(0.5) - 0.5, h);
-  ImageBounds bounds;
+  LeafBounds bounds;
   const SurfacePoint middle = scaled(projected(h), rect.s_max - rect.s_min, rect.t_max - rect.t_min);
   set_middle(middle, bounds);
   const PieceFrame frame{Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(&bounds.axis[0][0]),
                          Vec3(bounds.middle)};
+  const BezierNet whole = net_of(span);
   const auto piece = [&](int i, int j) {
     const double d = 1.0 / kPieces;
-    return FramedPiece(span, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)}, frame,
+    return FramedPiece(whole, {at_s(i * d), at_s((i + 1) * d), at_t(j * d), at_t((j + 1) * d)}, frame,
                        {kPieces, kPieces});
   };
   for (int k = 0; k < kPieces * kPieces; ++k) include_piece(piece(k / kPieces, k % kPieces), AcrossS(middle), bounds);
@@ -193,7 +198,7 @@ ImageBounds leaf_bounds(const BezierSpan& span, const LocalRect& rect) {
     bounds.self_low[d] -= by;
     bounds.self_high[d] += by;
   }
-  return bounds;
+  return packed(bounds);
 }
 
 }  // namespace bladefit

@@ -3,16 +3,40 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/nearest/leaf_bounds.hpp"
 
 namespace bladefit {
 namespace {
 
+/// Boxes are wider than their control points by this share of their coordinates, so that whoever checks the image may
+/// round otherwise.
+constexpr double kBoxMargin = 1e-13;
+
+Box control_box(const BezierNet& net) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::uint32_t k = 0; k < (net.degree_u + 1) * (net.degree_v + 1); ++k) {
+      const double coordinate = net.points[k][axis] / net.points[k][3];
+      low = std::min(low, coordinate);
+      high = std::max(high, coordinate);
+    }
+    const double margin = kBoxMargin * std::max(std::abs(low), std::abs(high));
+    box.min[axis] = low - margin;
+    box.max[axis] = high + margin;
+  }
+  return box;
+}
+
+Vec3 vector_of(const float (&x)[3]) { return {x[0], x[1], x[2]}; }
+
 /// How far off the surface the distance can be convex: half the least radius of curvature.
 double reach(const ImageBounds& b, double near) {
   double curvature = 0;
-  for (int d = 2; d < 5; ++d) curvature = std::max(curvature, std::abs(b.derivative[d][0]) + b.spread[d][0]);
+  for (int d = 2; d < 5; ++d)
+    curvature = std::max(curvature, std::abs(static_cast<double>(b.derivative[d][0])) + from_half_float(b.spread[d][0]));
   return curvature * near > 0.5 ? 0.5 / curvature : near;
 }
 
@@ -20,88 +44,103 @@ double reach(const ImageBounds& b, double near) {
 /// smallest eigenvalue of its Hessian, which is 1 for a flat leaf.
 double convexity(const ImageBounds& b, double near) {
   const double off = reach(b, near);
+  Vec3 low, high;
+  for (int k = 0; k < 3; ++k) {
+    low[k] = from_half_float(b.low[k]);
+    high[k] = from_half_float(b.high[k]);
+  }
   double least = 1;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 w((corner & 1) != 0 ? b.high[0] + off : b.low[0] - off, (corner & 2) != 0 ? b.high[1] : b.low[1],
-                 (corner & 4) != 0 ? b.high[2] : b.low[2]);
+    const Vec3 w((corner & 1) != 0 ? high[0] + off : low[0] - off, (corner & 2) != 0 ? high[1] : low[1],
+                 (corner & 4) != 0 ? high[2] : low[2]);
     const DerivativeRanges r = derivative_ranges(b, w);
     least = std::min(least, std::min(r.uu.least, r.vv.least) - std::max(std::abs(r.uv.least), std::abs(r.uv.most)));
   }
   return least;
 }
 
-/// A rectangle with its bounds.
-struct Candidate {
-  LocalRect rect;
-  int cuts = 0;
-  ImageBounds bounds;
-  double convex = 0;
-};
+/// Its lengths along s and along t in the middle [mm].
+std::array<double, 2> lengths_of(const ImageBounds& b) {
+  return {vector_of(b.derivative[0]).norm(), vector_of(b.derivative[1]).norm()};
+}
+
+bool hair_thin(const ImageBounds& b) {
+  const auto [along_s, along_t] = lengths_of(b);
+  return along_s > kHairThin * along_t || along_t > kHairThin * along_s;
+}
 
 class Subdivision {
  public:
-  Subdivision(const BezierSpan& span, double near) : span_(span), near_(near) {}
+  Subdivision(const BezierSpan& span, double near) : span_(span), net_(net_of(span)), near_(near) {}
 
-  [[nodiscard]] Candidate candidate(const LocalRect& rect, int cuts) const {
-    Candidate c{rect, cuts, leaf_bounds(span_, rect), 0};
-    c.convex = convexity(c.bounds, near_);
+  [[nodiscard]] LeafCandidate candidate(const LocalRect& rect, int cuts) const {
+    LeafCandidate c;
+    const auto single = [](double x) { return static_cast<float>(x); };
+    c.leaf = {0, 0, single(rect.s_min), single(rect.s_max), single(rect.t_min), single(rect.t_max),
+              leaf_bounds(span_, rect), {}};
+    c.cuts = cuts;
+    BezierNet net = net_;
+    restrict_net(rect, net);
+    c.box = control_box(net);
     return c;
+  }
+
+  /// Puts in what is gained by cutting a candidate: points fall into it by its area.
+  void weigh(LeafCandidate& c) const {
+    if (c.cuts == kLeafCuts || convexity(c.leaf.bounds, near_) > 0) return;
+    const auto [along_s, along_t] = lengths_of(c.leaf.bounds);
+    c.gain = std::max(along_s * along_t, std::numeric_limits<double>::min());
   }
 
   /// Halves across s or across t, whichever leaves the worse half better off; a hair-thin one along its length, since
   /// what is as long as the blade has no tight box.
-  [[nodiscard]] std::array<Candidate, 2> halves(const Candidate& whole) const {
-    const ImageBounds& b = whole.bounds;
-    const double along_s = Vec3(b.derivative[0]).norm(), along_t = Vec3(b.derivative[1]).norm();
+  [[nodiscard]] std::array<LeafCandidate, 2> halves(const LeafCandidate& whole) const {
+    const auto [along_s, along_t] = lengths_of(whole.leaf.bounds);
     if (along_s > kHairThin * along_t) return halves_across_s(whole);
     if (along_t > kHairThin * along_s) return halves_across_t(whole);
-    const std::array<Candidate, 2> across_s = halves_across_s(whole), across_t = halves_across_t(whole);
-    const auto worse = [](const std::array<Candidate, 2>& c) { return std::min(c[0].convex, c[1].convex); };
+    const std::array<LeafCandidate, 2> across_s = halves_across_s(whole), across_t = halves_across_t(whole);
+    const auto worse = [this](const std::array<LeafCandidate, 2>& c) {
+      return std::min(convexity(c[0].leaf.bounds, near_), convexity(c[1].leaf.bounds, near_));
+    };
     return worse(across_s) >= worse(across_t) ? across_s : across_t;
   }
 
  private:
-  [[nodiscard]] std::array<Candidate, 2> halves_across_s(const Candidate& whole) const {
-    LocalRect low = whole.rect, high = whole.rect;
-    low.s_max = high.s_min = 0.5 * (whole.rect.s_min + whole.rect.s_max);
+  [[nodiscard]] std::array<LeafCandidate, 2> halves_across_s(const LeafCandidate& whole) const {
+    LocalRect low = rect_of(whole.leaf), high = low;
+    low.s_max = high.s_min = 0.5 * (low.s_min + low.s_max);
     return {candidate(low, whole.cuts + 1), candidate(high, whole.cuts + 1)};
   }
-  [[nodiscard]] std::array<Candidate, 2> halves_across_t(const Candidate& whole) const {
-    LocalRect low = whole.rect, high = whole.rect;
-    low.t_max = high.t_min = 0.5 * (whole.rect.t_min + whole.rect.t_max);
+  [[nodiscard]] std::array<LeafCandidate, 2> halves_across_t(const LeafCandidate& whole) const {
+    LocalRect low = rect_of(whole.leaf), high = low;
+    low.t_max = high.t_min = 0.5 * (low.t_min + low.t_max);
     return {candidate(low, whole.cuts + 1), candidate(high, whole.cuts + 1)};
   }
 
   BezierSpan span_;
+  BezierNet net_;
   double near_;
 };
 
 }  // namespace
 
-std::vector<ImageLeaf> cut_into_leaves(const BezierSpan& span, double near) {
+LeafTree cut_into_leaves(const BezierSpan& span, double near) {
   const Subdivision subdivision(span, near);
-  std::vector<ImageLeaf> leaves;
-  std::vector<Candidate> pending{subdivision.candidate({}, 0)};
-  while (!pending.empty()) {
-    const Candidate c = pending.back();
-    pending.pop_back();
-    if (c.cuts == kLeafCuts || c.convex > 0) {
-      leaves.push_back({0, 0, c.rect.s_min, c.rect.s_max, c.rect.t_min, c.rect.t_max, c.bounds});
-      continue;
-    }
-    const std::array<Candidate, 2> halves = subdivision.halves(c);
-    pending.push_back(halves[1]);
-    pending.push_back(halves[0]);
+  LeafTree tree{subdivision.candidate({}, 0)};
+  for (std::size_t k = 0; k < tree.size(); ++k) {
+    subdivision.weigh(tree[k]);
+    if (tree[k].gain == 0) continue;
+    const std::array<LeafCandidate, 2> halves = subdivision.halves(tree[k]);
+    tree[k].halves = tree.size();
+    tree.insert(tree.end(), halves.begin(), halves.end());
   }
-  return leaves;
+  return tree;
 }
 
-std::vector<ImageLeaf> keep_as_leaf(const BezierSpan& span, double near) {
-  const LocalRect whole{};
-  const ImageBounds bounds = leaf_bounds(span, whole);
-  const double along_s = Vec3(bounds.derivative[0]).norm(), along_t = Vec3(bounds.derivative[1]).norm();
-  if (along_s > kHairThin * along_t || along_t > kHairThin * along_s) return cut_into_leaves(span, near);
-  return {{0, 0, whole.s_min, whole.s_max, whole.t_min, whole.t_max, bounds}};
+LeafTree keep_as_leaf(const BezierSpan& span, double near) {
+  LeafCandidate whole = Subdivision(span, near).candidate({}, 0);
+  if (hair_thin(whole.leaf.bounds)) return cut_into_leaves(span, near);
+  return {whole};
 }
 
 }  // namespace bladefit

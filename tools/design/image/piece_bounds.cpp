@@ -61,8 +61,8 @@ LongestVectors longest(ControlPolygon polygon, std::size_t order, double roundin
 PieceBounds piece_bounds(const BezierSpan& span, const SpanLine& line) {
   const LocalRect rect{std::min(line.s_from, line.s_to), std::max(line.s_from, line.s_to),
                        std::min(line.t_from, line.t_to), std::max(line.t_from, line.t_to)};
-  BezierNet net;
-  restrict_net(span.net, span.degree_u, span.degree_v, rect, net);
+  BezierNet net = net_of(span);
+  restrict_net(rect, net);
   ControlPolygon polygon = diagonal_of(net, line.s_from > line.s_to, line.t_from > line.t_to);
   PieceBounds out;
   HomogeneousDerivatives h;

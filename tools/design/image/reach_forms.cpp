@@ -79,7 +79,7 @@ std::array<IntervalVector, 5> derivatives_over(const Surface& surface, const Pie
                            local(d.v_min, high, r.limits.v_min), local(d.v_min, high, r.limits.v_max)};
       if (!(rect.s_min < rect.s_max && rect.t_min < rect.t_max)) continue;
       const PieceScale scale{1.0 / (wide * (rect.s_max - rect.s_min)), 1.0 / (high * (rect.t_max - rect.t_min))};
-      PieceRange range = FramedPiece(bezier_span(surface, span), rect, frame, scale).range();
+      PieceRange range = FramedPiece(bezier_net_of(surface, span), rect, frame, scale).range();
       widen(range.derivative, rounding, 2.0 * p.degree_u * scale.along_u, 2.0 * p.degree_v * scale.along_v);
       for (std::size_t k = 0; k < hull.size(); ++k) include(hull[k], range.derivative[k]);
     }

@@ -28,11 +28,12 @@ double square_to_box(const ImageNode& node, std::size_t child, const Vec3& from_
 ReachGuess::ReachGuess(const Surface& surface) : surface_(surface), most_(kMost * surface.half_diagonal()) {
   for (const ImageLeaf& leaf : surface.image().leaves()) {
     const SpanDomain d = surface.domain(leaf.span);
+    const LocalRect rect = rect_of(leaf);
     std::array<Vec3, 9>& places = samples_.emplace_back();
     for (std::size_t k = 0; k < places.size(); ++k) {
       const std::size_t row = k / 3, column = k % 3;
-      const double s = leaf.s_min + 0.5 * static_cast<double>(row) * (leaf.s_max - leaf.s_min);
-      const double t = leaf.t_min + 0.5 * static_cast<double>(column) * (leaf.t_max - leaf.t_min);
+      const double s = rect.s_min + 0.5 * static_cast<double>(row) * (rect.s_max - rect.s_min);
+      const double t = rect.t_min + 0.5 * static_cast<double>(column) * (rect.t_max - rect.t_min);
       places[k] = surface.evaluate({leaf.span, d.u_min + s * (d.u_max - d.u_min), d.v_min + t * (d.v_max - d.v_min)}).s;
     }
   }

@@ -21,15 +21,15 @@ struct SideNet {
 SideNet side_net(const Surface& surface, std::uint32_t span, bool along_u, bool high) {
   const ImagePatch& p = surface.patch_of(span);
   const SpanDomain d = surface.domain(span);
-  const std::uint32_t columns = p.degree_v + 1;
   SideNet side;
-  side.count = along_u ? columns : p.degree_u + 1;
+  side.count = 1 + (along_u ? p.degree_v : p.degree_u);
   const std::uint32_t degree = along_u ? p.degree_u : p.degree_v;
   const double factor = degree / (along_u ? d.u_max - d.u_min : d.v_max - d.v_min);
+  BezierNet net;
+  surface.net(span, net);
   const auto point = [&](std::uint32_t k, std::uint32_t in) {
     const std::uint32_t step = high ? degree - in : in;
-    const std::uint32_t place = along_u ? step * columns + k : k * columns + step;
-    return Homogeneous(Eigen::Map<const Homogeneous>(surface.net(span) + 4U * place));
+    return along_u ? net.at(step, k) : net.at(k, step);
   };
   for (std::uint32_t k = 0; k < side.count; ++k) {
     side.on[k] = point(k, 0);

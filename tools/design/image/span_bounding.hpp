@@ -3,8 +3,8 @@
 
 #include "core/geometry/surface/design_image.hpp"
 #include "tools/design/image/image_size.hpp"
+#include "tools/design/image/leaf_subdivision.hpp"
 #include "tools/design/image/normal_cone.hpp"
-#include "tools/design/image/tree_builder.hpp"
 #include "tools/design/nurbs/bezier_extraction.hpp"
 
 namespace bladefit {
@@ -12,8 +12,7 @@ namespace bladefit {
 /// What bounds one span.
 struct SpanBounding {
   NormalCone cone;
-  std::vector<ImageLeaf> leaves;  ///< `span` and `node` are left open
-  std::vector<Box> boxes;         ///< of the control points of each leaf [mm]
+  LeafTree leaves;
 };
 
 /// The bounds of every span of a patch. `outward` and `near` as of normal_cone() and cut_into_leaves(),

@@ -69,8 +69,9 @@ class SpanProof {
     auto leaf = std::lower_bound(leaves.begin(), leaves.end(), span_,
                                  [](const ImageLeaf& l, std::uint32_t span) { return l.span < span; });
     for (; leaf != leaves.end() && leaf->span == span_; ++leaf) {
-      const LocalRect rect{std::max(leaf->s_min, cell_.s_min), std::min(leaf->s_max, cell_.s_max),
-                           std::max(leaf->t_min, cell_.t_min), std::min(leaf->t_max, cell_.t_max)};
+      LocalRect rect = rect_of(*leaf);
+      rect = {std::max(rect.s_min, cell_.s_min), std::min(rect.s_max, cell_.s_max),
+              std::max(rect.t_min, cell_.t_min), std::min(rect.t_max, cell_.t_max)};
       if (rect.s_min < rect.s_max && rect.t_min < rect.t_max)
         feet_.push_back(std::make_unique<SurfacePart>(surface_, span_, rect, 0));
     }
@@ -246,7 +247,7 @@ SurfacePart& PartCache::of_leaf(std::uint32_t leaf) {
   std::unique_ptr<SurfacePart>& part = parts_[leaf];
   if (!part) {
     const ImageLeaf& l = surface_.image().leaves()[leaf];
-    part = std::make_unique<SurfacePart>(surface_, l.span, LocalRect{l.s_min, l.s_max, l.t_min, l.t_max}, 0);
+    part = std::make_unique<SurfacePart>(surface_, l.span, rect_of(l), 0);
   }
   return *part;
 }

@@ -31,9 +31,10 @@ LocalRect half_rect(LocalRect rect, bool along_s, bool high) {
 
 }  // namespace
 
-BezierSpan bezier_span(const Surface& surface, std::uint32_t span) {
-  const ImagePatch& patch = surface.patch_of(span);
-  return {surface.net(span), surface.taylor(span), patch.degree_u, patch.degree_v};
+BezierNet bezier_net_of(const Surface& surface, std::uint32_t span) {
+  BezierNet net;
+  surface.net(span, net);
+  return net;
 }
 
 bool PatchRect::holds(const PatchRect& other) const {
@@ -63,10 +64,9 @@ SurfacePart::SurfacePart(const Surface& surface, std::uint32_t span, const Local
                  s.iv,
                  {at(d.u_min, d.u_max, rect.s_min), at(d.u_min, d.u_max, rect.s_max), at(d.v_min, d.v_max, rect.t_min),
                   at(d.v_min, d.v_max, rect.t_max)}};
-  const BezierSpan bezier = bezier_span(surface, span);
-  BezierNet net;
-  restrict_net(bezier.net, bezier.degree_u, bezier.degree_v, rect, net);
-  const std::uint32_t rows = bezier.degree_u, columns = bezier.degree_v;
+  BezierNet net = bezier_net_of(surface, span);
+  restrict_net(rect, net);
+  const std::uint32_t rows = net.degree_u, columns = net.degree_v;
   points_.reserve((rows + 1) * (columns + 1));
   for (std::uint32_t k = 0; k < (rows + 1) * (columns + 1); ++k)
     points_.emplace_back(net.points[k].head<3>() / net.points[k][3]);
@@ -126,7 +126,7 @@ void SurfacePart::make_view() {
   view.place = box_in(view.frame);
   const double width_u = r.u_max - r.u_min, width_v = r.v_max - r.v_min;
   const PieceRange range =
-      FramedPiece(bezier_span(surface_, span_), rect_, view.frame, {1.0 / width_u, 1.0 / width_v}).range();
+      FramedPiece(bezier_net_of(surface_, span_), rect_, view.frame, {1.0 / width_u, 1.0 / width_v}).range();
   const IntervalVector a = view.stretch[0] * range.derivative[0],
                        b = view.stretch[1] * range.derivative[1] + view.stretch[2] * range.derivative[0];
   const IntervalVector turned = interval_cross(a, b);

@@ -8,8 +8,8 @@
 
 namespace bladefit {
 
-/// The span as the pieces take it. A view.
-[[nodiscard]] BezierSpan bezier_span(const Surface& surface, std::uint32_t span);
+/// The net of a span.
+[[nodiscard]] BezierNet bezier_net_of(const Surface& surface, std::uint32_t span);
 
 /// A rectangle of a patch, in its parameters, and the spans that it lies in.
 struct PatchRect {

@@ -27,12 +27,12 @@ double half_area(const Box& box) {
 }
 
 /// Largest coordinate of single precision below `x`, about the middle, or smallest above it.
-float rounded_down(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
-float rounded_up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
+float coordinate_below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
+float coordinate_above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
 class TreeBuilder {
  public:
-  explicit TreeBuilder(const std::vector<Box>& boxes) : boxes_(boxes), whole_(box_around(boxes)) {}
+  TreeBuilder(const std::vector<Box>& boxes, const Box& whole) : boxes_(boxes), whole_(whole) {}
 
   std::vector<ImageNode> run() {
     std::vector<std::uint32_t> members(boxes_.size());
@@ -135,8 +135,8 @@ class TreeBuilder {
   void set_box(const Box& box, ImageNode& node, std::size_t place) const {
     for (int axis = 0; axis < 3; ++axis) {
       const double middle = 0.5 * (whole_.min[axis] + whole_.max[axis]);
-      node.low[axis][place] = rounded_down(box.min[axis] - middle);
-      node.high[axis][place] = rounded_up(box.max[axis] - middle);
+      node.low[axis][place] = coordinate_below(box.min[axis] - middle);
+      node.high[axis][place] = coordinate_above(box.max[axis] - middle);
     }
   }
 
@@ -161,6 +161,8 @@ Box box_around(const std::vector<Box>& boxes) {
   return whole;
 }
 
-std::vector<ImageNode> build_bounding_tree(const std::vector<Box>& boxes) { return TreeBuilder(boxes).run(); }
+std::vector<ImageNode> build_bounding_tree(const std::vector<Box>& boxes, const Box& whole) {
+  return TreeBuilder(boxes, whole).run();
+}
 
 }  // namespace bladefit

@@ -1,6 +1,7 @@
 #include "tools/design/nurbs/bezier_extraction.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/geometry/surface/taylor.hpp"
 
@@ -8,7 +9,6 @@ namespace bladefit {
 namespace {
 
 using Extended = long double;
-using ExtendedPoint = Eigen::Matrix<Extended, 4, 1>;
 
 /// One nonempty knot span inside the used range: its parameter is in [begin, end], which lies in the knot interval
 /// [knots[index], knots[index + 1]].
@@ -39,10 +39,10 @@ std::vector<double> normalised_breaks(const SurfaceDirection& direction, const s
   return breaks;
 }
 
-/// The blossom (polar form) of the spline on `span` with `ends` arguments at its end and the others at its begin: the
-/// Bezier control point number `ends`. Every step is a convex combination, hence stable. (Ramshaw, Blossoming, 1987.)
-ExtendedPoint blossom(const SurfaceDirection& direction, const KnotSpan& span, int ends,
-                      std::vector<ExtendedPoint> points) {
+/// The blossom (polar form) of the spline on `span` with `ends` arguments at its end and the others at its begin, of a
+/// spline whose degree + 1 control points there are numbers: the Bezier control point number `ends`. Every step is a
+/// convex combination, hence stable. (Ramshaw, Blossoming, 1987.)
+Extended blossom(const SurfaceDirection& direction, const KnotSpan& span, int ends, std::vector<Extended> points) {
   const auto degree = static_cast<std::size_t>(direction.degree);
   for (std::size_t r = 1; r <= degree; ++r) {
     const Extended argument = r <= static_cast<std::size_t>(ends) ? span.end : span.begin;
@@ -57,42 +57,56 @@ ExtendedPoint blossom(const SurfaceDirection& direction, const KnotSpan& span, i
   return points[degree];
 }
 
-/// The degree + 1 Bezier control points on `span` of the spline curve with the given control points.
-std::vector<ExtendedPoint> bezier_points(const SurfaceDirection& direction, const KnotSpan& span,
-                                         const std::vector<ExtendedPoint>& curve) {
-  const auto first = curve.begin() + static_cast<std::ptrdiff_t>(span.index) - direction.degree;
-  const std::vector<ExtendedPoint> local(first, first + direction.degree + 1);
-  std::vector<ExtendedPoint> result;
-  for (int ends = 0; ends <= direction.degree; ++ends) result.push_back(blossom(direction, span, ends, local));
-  return result;
-}
-
-/// The net in homogeneous form, one curve along u for each j. Weights that are all equal stand for 1.
-std::vector<std::vector<ExtendedPoint>> columns_of(const NurbsSurface& surface, bool rational) {
-  const auto count_v = static_cast<std::size_t>(surface.v.control_points);
-  std::vector<std::vector<ExtendedPoint>> columns(count_v);
-  for (std::size_t k = 0; k < surface.control_points.size(); ++k) {
-    const Extended weight = rational ? surface.weights[k] : 1.0;
-    ExtendedPoint point;
-    point << surface.control_points[k].cast<Extended>() * weight, weight;
-    columns[k % count_v].push_back(point);
-  }
-  return columns;
-}
-
-/// Appends the spans of one strip (one span in u); `strip` holds its control points, strip[i] a spline curve along v.
-void append_strip(const NurbsSurface& surface, const std::vector<KnotSpan>& spans_v,
-                  const std::vector<std::vector<ExtendedPoint>>& strip, BezierPatch& patch) {
-  for (const KnotSpan& span : spans_v) {
-    for (const std::vector<ExtendedPoint>& curve : strip) {
-      for (const ExtendedPoint& point : bezier_points(surface.v, span, curve)) {
-        for (Eigen::Index axis = 0; axis < 4; ++axis) patch.coefficients.push_back(static_cast<double>(point[axis]));
+/// The share of control point l in Bezier point k is that point of a spline whose control points are 0, but for a 1.
+Extraction extraction_of(const SurfaceDirection& direction, const std::vector<KnotSpan>& spans) {
+  Extraction out;
+  const auto order = static_cast<std::size_t>(direction.degree) + 1;
+  for (const KnotSpan& span : spans) {
+    out.first.push_back(static_cast<std::uint32_t>(span.index + 1 - order));
+    for (int k = 0; k <= direction.degree; ++k) {
+      for (std::size_t l = 0; l < order; ++l) {
+        std::vector<Extended> unit(order, 0);
+        unit[l] = 1;
+        out.shares.push_back(static_cast<double>(blossom(direction, span, k, std::move(unit))));
       }
     }
   }
+  return out;
+}
+
+/// The control points in homogeneous form. Weights that are all equal stand for 1.
+std::vector<double> homogeneous_points(const NurbsSurface& surface, bool rational) {
+  std::vector<double> points;
+  points.reserve(4 * surface.control_points.size());
+  for (std::size_t k = 0; k < surface.control_points.size(); ++k) {
+    const double weight = rational ? surface.weights[k] : 1.0;
+    for (const double coordinate : surface.control_points[k]) points.push_back(weight * coordinate);
+    points.push_back(weight);
+  }
+  return points;
 }
 
 }  // namespace
+
+BezierNet net_of(const BezierSpan& span) {
+  BezierNet net;
+  net.degree_u = span.degree_u;
+  net.degree_v = span.degree_v;
+  for (std::uint32_t k = 0; k < (span.degree_u + 1) * (span.degree_v + 1); ++k)
+    net.points[k] = Eigen::Map<const Homogeneous>(span.net + 4U * k);
+  return net;
+}
+
+SpanSource BezierPatch::source(std::size_t index) const {
+  const auto order_u = static_cast<std::size_t>(degree_u) + 1, order_v = static_cast<std::size_t>(degree_v) + 1;
+  return {&points[4 * first_point(index)],
+          static_cast<std::uint32_t>(points_v),
+          &along_u.shares[index / spans_v() * order_u * order_u],
+          &along_v.shares[index % spans_v() * order_v * order_v],
+          static_cast<std::uint32_t>(degree_u),
+          static_cast<std::uint32_t>(degree_v),
+          rational};
+}
 
 BezierPatch extract_bezier(const NurbsSurface& surface) {
   const std::vector<KnotSpan> spans_u = nonempty_spans(surface.u);
@@ -104,20 +118,17 @@ BezierPatch extract_bezier(const NurbsSurface& surface) {
   patch.breaks_v = normalised_breaks(surface.v, spans_v);
   patch.rational = std::any_of(surface.weights.begin(), surface.weights.end(),
                                [&](double weight) { return weight != surface.weights.front(); });
-  patch.coefficients.reserve(spans_u.size() * spans_v.size() * patch.span_size());
-  const std::vector<std::vector<ExtendedPoint>> columns = columns_of(surface, patch.rational);
-  for (const KnotSpan& span : spans_u) {
-    std::vector<std::vector<ExtendedPoint>> strip(static_cast<std::size_t>(surface.u.degree) + 1);
-    for (const std::vector<ExtendedPoint>& column : columns) {
-      const std::vector<ExtendedPoint> points = bezier_points(surface.u, span, column);
-      for (std::size_t i = 0; i < points.size(); ++i) strip[i].push_back(points[i]);
-    }
-    append_strip(surface, spans_v, strip, patch);
-  }
-  patch.taylor.resize(patch.coefficients.size());
-  for (std::size_t k = 0; k < patch.coefficients.size(); k += patch.span_size()) {
-    taylor_form(&patch.coefficients[k], static_cast<std::uint32_t>(patch.degree_u),
-                static_cast<std::uint32_t>(patch.degree_v), &patch.taylor[k]);
+  patch.points = homogeneous_points(surface, patch.rational);
+  patch.points_v = static_cast<std::size_t>(surface.v.control_points);
+  patch.along_u = extraction_of(surface.u, spans_u);
+  patch.along_v = extraction_of(surface.v, spans_v);
+  patch.coefficients.resize(spans_u.size() * spans_v.size() * patch.span_size());
+  for (std::size_t k = 0; k < spans_u.size() * spans_v.size(); ++k)
+    bezier_points(patch.source(k), &patch.coefficients[k * patch.span_size()]);
+  patch.taylor = patch.coefficients;
+  for (std::size_t k = 0; k < patch.taylor.size(); k += patch.span_size()) {
+    to_taylor_form(static_cast<std::uint32_t>(patch.degree_u), static_cast<std::uint32_t>(patch.degree_v),
+                   &patch.taylor[k]);
   }
   return patch;
 }
