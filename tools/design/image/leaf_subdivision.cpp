@@ -85,11 +85,11 @@ class Subdivision {
     return c;
   }
 
-  /// Puts in what is gained by cutting a candidate: points fall into it by its area.
+  /// Puts in what is gained by cutting a candidate: searches look at it by the area from which it is near.
   void weigh(LeafCandidate& c) const {
     if (c.cuts == kLeafCuts || convexity(c.leaf.bounds, near_) > 0) return;
     const auto [along_s, along_t] = lengths_of(c.leaf.bounds);
-    c.gain = std::max(along_s * along_t, std::numeric_limits<double>::min());
+    c.gain = (along_s + near_) * (along_t + near_);
   }
 
   /// Halves across s or across t, whichever leaves the worse half better off; a hair-thin one along its length, since

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/nearest/bounding_tree.hpp"
@@ -26,6 +27,16 @@ constexpr double kThickest = 0.05;
 constexpr double kLoopFirst = 0.25;
 /// An edge that faces another one across the material lies this deep at least [way].
 constexpr double kLeastDepth = 0.5;
+
+/// A leaf is looked at in so many parts in each direction: it may be so bent that from its middle not all of its places
+/// are reached.
+constexpr int kLeafParts = 4;
+
+/// Part k of kLeafParts of a range.
+std::pair<double, double> part_of(double low, double high, int k) {
+  const auto at = [&](int i) { return i == kLeafParts ? high : low + (high - low) * i / kLeafParts; };
+  return {at(k), at(k + 1)};
+}
 
 /// Pieces are nearly straight: some steps along the tangent are enough.
 TrimPlace nearest_on(const Surface& surface, std::uint32_t trim, const Vec3& point) {
@@ -55,6 +66,22 @@ ParameterLimits limits_of(const Surface& surface, const ImageLeaf& leaf) {
   };
   return {at(d.u_min, d.u_max, leaf.s_min), at(d.u_min, d.u_max, leaf.s_max), at(d.v_min, d.v_max, leaf.t_min),
           at(d.v_min, d.v_max, leaf.t_max)};
+}
+
+/// A place so near to the edge of its patch is on it [gaps]: rounding.
+constexpr double kOnEdge = 1e-6;
+
+/// A foot that is on the edge of its patch but for rounding, there.
+Projection on_edge(const Surface& surface, const Projection& p, double near) {
+  const auto snapped = [near](double t, double speed) {
+    if (t * speed <= near) return 0.0;
+    return (1.0 - t) * speed <= near ? 1.0 : t;
+  };
+  Projection out = p;
+  out.place.u = snapped(p.place.u, p.at.s_u.norm());
+  out.place.v = snapped(p.place.v, p.at.s_v.norm());
+  if (out.place.u != p.place.u || out.place.v != p.place.v) out.at = surface.evaluate(out.place);
+  return out;
 }
 
 /// Unit vector into the patch at a place of its edge; nothing inside of it.
@@ -127,9 +154,13 @@ std::optional<Vec3> MeetingSurface::facing_edge(const SurfacePlace& own, const V
     const bool own_side = surface_.span(span).patch == patch && ((line.u_min == line.u_max && line.u_min == own.u) ||
                                                                  (line.v_min == line.v_max && line.v_min == own.v));
     if (own_side) return;
-    const SurfacePlace start{span, 0.5 * (line.u_min + line.u_max), 0.5 * (line.v_min + line.v_max)};
-    const Projection found = project_local(surface_, point, start, line);
-    take(-found.offset, into_patch(found));
+    for (int k = 0; k < kLeafParts; ++k) {
+      const auto [u_low, u_high] = part_of(line.u_min, line.u_max, k);
+      const auto [v_low, v_high] = part_of(line.v_min, line.v_max, k);
+      const SurfacePlace start{span, 0.5 * (u_low + u_high), 0.5 * (v_low + v_high)};
+      const Projection found = project_local(surface_, point, start, {u_low, u_high, v_low, v_high});
+      take(-found.offset, into_patch(found));
+    }
   };
   const auto look_in_leaf = [&](std::uint32_t leaf) {
     const ImageLeaf& l = surface_.image().leaves()[leaf];
@@ -156,9 +187,18 @@ void MeetingSurface::look_in(std::uint32_t leaf, const SurfacePlace& own, const 
                              std::optional<MeetingPlace>& best) const {
   const ImageLeaf& l = surface_.image().leaves()[leaf];
   if (least_distance(l.bounds, in_frame(l.bounds, point)) > gap_) return;
-  const ParameterLimits limits = limits_of(surface_, l);
-  const SurfacePlace middle{l.span, 0.5 * (limits.u_min + limits.u_max), 0.5 * (limits.v_min + limits.v_max)};
-  const Projection found = project_local(surface_, point, middle, limits);
+  const ParameterLimits whole = limits_of(surface_, l);
+  for (int k = 0; k < kLeafParts * kLeafParts; ++k) {
+    const auto [u_low, u_high] = part_of(whole.u_min, whole.u_max, k / kLeafParts);
+    const auto [v_low, v_high] = part_of(whole.v_min, whole.v_max, k % kLeafParts);
+    look_in_part(l.span, {u_low, u_high, v_low, v_high}, own, point, best);
+  }
+}
+
+void MeetingSurface::look_in_part(std::uint32_t span, const ParameterLimits& limits, const SurfacePlace& own,
+                                  const Vec3& point, std::optional<MeetingPlace>& best) const {
+  const SurfacePlace middle{span, 0.5 * (limits.u_min + limits.u_max), 0.5 * (limits.v_min + limits.v_max)};
+  const Projection found = on_edge(surface_, project_local(surface_, point, middle, limits), kOnEdge * gap_);
   const double distance = found.offset.norm();
   if (found.outside || distance > gap_ || (best && distance >= best->rank)) return;
   const bool same_patch = surface_.span(own.span).patch == surface_.span(found.place.span).patch;

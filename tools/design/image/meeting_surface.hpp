@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "core/geometry/nearest/local_projection.hpp"
 #include "core/geometry/surface/surface.hpp"
 
 namespace bladefit {
@@ -45,6 +46,8 @@ class MeetingSurface {
   template <class UseLeaf, class UseRun>
   void each_near(const Vec3& point, double reach, UseLeaf use_leaf, UseRun use_run) const;
   void look_in(std::uint32_t leaf, const SurfacePlace& own, const Vec3& point, std::optional<MeetingPlace>& best) const;
+  void look_in_part(std::uint32_t span, const ParameterLimits& limits, const SurfacePlace& own, const Vec3& point,
+                    std::optional<MeetingPlace>& best) const;
   void look_at(const TrimPlace& found, const SurfacePlace& own, const Vec3& point,
                std::optional<MeetingPlace>& best) const;
   [[nodiscard]] bool connected(const SurfacePlace& a, const SurfacePlace& b, const Vec3& point) const;
