@@ -224,7 +224,7 @@ void add_compile_command(CLI::App& app, int& exit_code) {
       ->type_name("x|y|z|x0,y0,z0,i,j,k");
   command->add_flag("--allow-missing", options->allow_missing, "Go on without faces that cannot be read");
   command->add_flag("--compact", options->compact,
-                    "Write an image a third to a quarter as large, for flash; feet are the same, searches slower");
+                    "Write an image at most 20 times as large as its control points (default 40), for flash; the same feet, slower");
   command->add_option("--c-array", options->c_array, "Also write the image as a C99 array, for flash")
       ->type_name("OUT.c");
   command->add_option("--outward", options->outward, "Side away from the material (default auto)")

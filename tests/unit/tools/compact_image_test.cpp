@@ -55,8 +55,8 @@ TEST_P(CompactImage, IsSmallAndHasTheSameFeet) {
       "%s: %zu bytes, %.0f times the control points; compact %zu, %.0f times; pieces a search %.2f, %.2f, at most %u\n",
       GetParam(), fast.size(), bytes_a_point(fast, design), compact.size(), bytes_a_point(compact, design),
       static_cast<double>(fast_pieces) / kPoints, static_cast<double>(pieces) / kPoints, most);
-  EXPECT_LT(bytes_a_point(compact, design), 50);
-  EXPECT_LT(2.2 * bytes_a_point(compact, design), bytes_a_point(fast, design));
+  EXPECT_LE(bytes_a_point(fast, design), 40);
+  EXPECT_LE(bytes_a_point(compact, design), 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CompactImage,
