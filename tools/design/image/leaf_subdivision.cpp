@@ -87,9 +87,10 @@ class Subdivision {
 
   /// Puts in what is gained by cutting a candidate: searches look at it by the area from which it is near.
   void weigh(LeafCandidate& c) const {
-    if (c.cuts == kLeafCuts || convexity(c.leaf.bounds, near_) > 0) return;
+    const double convex = convexity(c.leaf.bounds, near_);
+    if (c.cuts == kLeafCuts || convex > 0) return;
     const auto [along_s, along_t] = lengths_of(c.leaf.bounds);
-    c.gain = (along_s + near_) * (along_t + near_);
+    c.gain = (along_s + near_) * (along_t + near_) * std::clamp(-convex, 0.01, 1.0);
   }
 
   /// Halves across s or across t, whichever leaves the worse half better off; a hair-thin one along its length, since
