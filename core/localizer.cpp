@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 
+#include "core/localizer/check_config.hpp"
 #include "core/localizer/fit_report.hpp"
-#include "core/localizer/localizer_parts.hpp"
+#include "core/localizer/localizer_memory.hpp"
 
 namespace bladefit {
 namespace {
+
+/// Where addresses have 32 bits, a large capacity needs more than that.
+constexpr std::uint64_t kMoreThanThereIs = std::numeric_limits<std::size_t>::max() - 4096;
 
 /// The pose is at rest: at the optimum over all points, or while they come near enough to it not to change a verdict.
 bool settled(const LocalizerParts& p) {
@@ -97,6 +102,40 @@ void stage_made(LocalizerParts& p, const StoredPoint& made, Search search) {
 }
 
 }  // namespace
+
+std::array<MemoryPart, 9> Localizer::memory_parts(const LocalizerConfig& config) { return parts_in_memory(config); }
+
+std::size_t Localizer::memory_required(const LocalizerConfig& config) {
+  std::uint64_t size = 0;
+  for (const MemoryPart& part : memory_parts(config)) size += part.size;
+  return static_cast<std::size_t>(std::min<std::uint64_t>(size, kMoreThanThereIs));
+}
+
+Status Localizer::create(std::span<std::byte> memory, const DesignImage& design, const LocalizerConfig& config,
+                         Localizer*& localizer) {
+  if (memory.data() == nullptr || design.patches().empty()) return Status::null_argument;
+  if (reinterpret_cast<std::uintptr_t>(memory.data()) % kBlockAlignment != 0) return Status::misaligned;
+  if (check_config(config, design.patches().size())) return Status::out_of_range;
+  if (memory.size() < memory_required(config)) return Status::not_enough_memory;
+
+  localizer = new (memory.data()) Localizer(build_parts(memory.data() + rounded_up(sizeof(Localizer)), design, config));
+  localizer->reset();
+  return Status::ok;
+}
+
+Status Localizer::set_tolerance(const ToleranceMap& map) {
+  const DesignImage design = parts_->problem.surface.image();
+  LocalizerConfig wanted = config();
+  wanted.tolerance = map;
+  if (parts_->stream.accepted > 0 || check_config(wanted, design.patches().size())) return Status::out_of_range;
+  parts_ = &build_parts(reinterpret_cast<std::byte*>(parts_), design, wanted);
+  reset();
+  return Status::ok;
+}
+
+const LocalizerConfig& Localizer::config() const { return parts_->problem.config; }
+
+std::size_t Localizer::patches() const { return parts_->problem.surface.image().patches().size(); }
 
 void Localizer::reset() {
   LocalizerParts& p = *parts_;

@@ -72,8 +72,12 @@ bladefit_status add_zone(const bladefit_zone& from, std::uint32_t number, Tolera
     if (from.boxes[k].reserved != 0) return BLADEFIT_OUT_OF_RANGE;
     map.boxes[map.box_count++] = box_from(from.boxes[k], number);
   }
-  map.zones[number - 1] = {static_cast<Region>(from.region), from.box_count == 0, from.radius_low_mm,
-                           from.radius_high_mm, from.plus_mm, from.minus_mm};
+  map.zones[number - 1] = {static_cast<Region>(from.region),
+                           from.box_count == 0,
+                           from.radius_low_mm,
+                           from.radius_high_mm,
+                           from.plus_mm,
+                           from.minus_mm};
   return BLADEFIT_OK;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/localizer.hpp"
 #include "firmware_bridge/bladefit.h"
+#include "firmware_bridge/bladefit_zones.h"
 
 namespace bladefit {
 
@@ -10,9 +11,9 @@ namespace bladefit {
 /// check_config() with that design. Returns BLADEFIT_OK, BLADEFIT_NOT_FINITE or BLADEFIT_OUT_OF_RANGE.
 [[nodiscard]] bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& to);
 
-/// Puts zones in place of the boxes of `map`; what the localizer's configuration checks is left to that. The axis, which
-/// may be null, has its struct_size. Returns BLADEFIT_OK, NULL_ARGUMENT, MISALIGNED, BAD_SIZE or OUT_OF_RANGE: then `map`
-/// is undefined.
+/// Puts zones in place of the boxes of `map`; what the localizer's configuration checks is left to that. The axis,
+/// which may be null, has its struct_size. Returns BLADEFIT_OK, NULL_ARGUMENT, MISALIGNED, BAD_SIZE or OUT_OF_RANGE:
+/// then `map` is undefined.
 [[nodiscard]] bladefit_status translate_zones(std::span<const bladefit_zone> zones, const bladefit_axis* axis,
                                               ToleranceMap& map);
 

@@ -1,4 +1,5 @@
 #include "firmware_bridge/bladefit.h"
+#include "firmware_bridge/bladefit_zones.h"
 
 #include <cstdint>
 #include <new>
@@ -144,7 +145,8 @@ bladefit_status bladefit_set_zones(bladefit_handle* handle, const bladefit_zone*
   const bladefit_status status = bladefit::translate_zones({zones, count}, axis, wanted.tolerance);
   if (status != BLADEFIT_OK) return status;
   if (const auto fault = bladefit::check_config(wanted, localizer.patches())) return to_abi(fault.status);
-  return localizer.set_tolerance(wanted.tolerance) == Status::ok ? BLADEFIT_OK : BLADEFIT_TOO_LATE;
+  if (localizer.set_tolerance(wanted.tolerance) != Status::ok) return BLADEFIT_TOO_LATE;
+  return BLADEFIT_OK;
 }
 
 bladefit_status bladefit_zone_of(const bladefit_handle* handle, uint32_t sequence, uint32_t* zone) {

@@ -35,11 +35,9 @@ extern "C" {
 #define BLADEFIT_MEMORY_ALIGNMENT 64u   /* of the memory given to bladefit_init() [bytes] */
 #define BLADEFIT_MAX_BOXES 32u          /* leading-edge boxes */
 #define BLADEFIT_MAX_CAPACITY 16777216u /* points that can keep a place */
-#define BLADEFIT_MAX_ZONES 16u          /* zones of bladefit_set_zones() */
-#define BLADEFIT_MAX_ZONE_BOXES 128u    /* boxes of all its zones together */
 
 /* Most that was measured of the stack of a call [bytes], x86-64, all modes, the designs of the tests: push, push_many
- * and refine 23.7 kB, init and memory_required 14 kB, design_check 8 kB, fit and reset 3.4 kB, others below 1 kB. */
+ * and refine 23.7 kB, init and memory_required 15 kB, design_check 8 kB, fit and reset 3.4 kB, others below 1 kB. */
 #define BLADEFIT_STACK_BYTES 24576u
 
 /* Outcome of a call: 0 success, positive success with a qualification, negative the reason why nothing was done. */
@@ -60,7 +58,6 @@ enum {
   BLADEFIT_NOT_FOUND = -6,      /* no such point, or no revision waits */
   BLADEFIT_BAD_SIZE = -7,       /* struct_size is not that of this version of the struct */
   BLADEFIT_BAD_HANDLE = -8,     /* the handle does not come from a successful bladefit_init() */
-  BLADEFIT_TOO_LATE = -10,      /* there are points already: only before the first one, or after bladefit_reset() */
   BLADEFIT_BAD_MAGIC = -20,     /* the design is not a design image */
   BLADEFIT_BAD_VERSION = -21,   /* the design image is of another format version */
   BLADEFIT_BAD_LENGTH = -22,    /* the design image is shorter or longer than it says */
@@ -148,28 +145,6 @@ typedef struct bladefit_config {
         BLADEFIT_LEAST_SQUARES, BLADEFIT_REGIONS_FOLLOW, 0u, BLADEFIT_LOSS_NONE, 10.0, 0.0, BLADEFIT_SIMPLE, 0u, 2.0,  \
         0.0, 0.0                                                                                                       \
   }
-
-/* A part of the blade with tolerances of its own: its boxes, a band of radii about the shaft, or those boxes within that
- * band. */
-typedef struct bladefit_zone {
-  uint32_t struct_size;      /* sizeof(bladefit_zone) */
-  uint32_t region;           /* BLADEFIT_REST or _LEADING_EDGE: where its points are summed up */
-  const bladefit_box* boxes; /* box_count of them, read during the call alone; null where box_count is 0 */
-  uint32_t box_count;        /* 0: the whole band */
-  uint32_t reserved;         /* 0 */
-  double radius_low_mm;      /* >= 0; of the band, limits included */
-  double radius_high_mm;     /* above radius_low_mm; INFINITY = no end */
-  double plus_mm;            /* > 0; excess material that is allowed, beyond it is cut; INFINITY = not judged */
-  double minus_mm;           /* > 0; missing material that is allowed, beyond it is welded; INFINITY = not judged */
-} bladefit_zone;
-
-/* The axis of the shaft, from which the radii of zones are measured [design coordinates]. */
-typedef struct bladefit_axis {
-  uint32_t struct_size; /* sizeof(bladefit_axis) */
-  uint32_t reserved;    /* 0 */
-  double point[3];      /* [mm] */
-  double direction[3];  /* unit vector */
-} bladefit_axis;
 
 /* One touch of the probe, in the machine's coordinates. */
 typedef struct bladefit_point {
@@ -279,24 +254,6 @@ size_t bladefit_memory_required(const bladefit_config* config, const void* desig
  * BAD_CONTENT. */
 bladefit_status bladefit_init(void* memory, size_t memory_size, const void* design, size_t design_size,
                               const bladefit_config* config, bladefit_handle** handle);
-
-/* The handle's thread, before the first point or after bladefit_reset(). Sets zones, 1..BLADEFIT_MAX_ZONES of them by
- * falling precedence: a foot has the tolerances of the first zone that it lies in, outside of all rest_tolerance_mm on
- * both sides. Boxes, leading_edge_tolerance_mm and ratio of the configuration play no part any more; transition must be
- * 0. Zones stay over bladefit_reset(). Those set before are gone; to have none, call bladefit_init().
- * BLADEFIT_MIN_TOLERANCE then finds the smallest multiple of all tolerances, rest included, that some pose meets, and
- * BLADEFIT_CONSTRAINED keeps every distance from -minus_mm to plus_mm of its zone: both need a finite
- * rest_tolerance_mm, and limits of a zone that are finite on both sides or on none; tolerance_factor_mm and
- * smallest_tolerance_mm then tell what becomes of the tightest tolerance of the leading edge, or where none is set there
- * of the rest, with all others in proportion. A verdict's tolerance_mm is the limit on the side of its distance.
- * `axis` null: the x axis. Cost: linear in the capacity; no more memory than before. Returns OK, NULL_ARGUMENT,
- * MISALIGNED, BAD_SIZE, BAD_HANDLE, NOT_FINITE, OUT_OF_RANGE or TOO_LATE. */
-bladefit_status bladefit_set_zones(bladefit_handle* handle, const bladefit_zone* zones, uint32_t count,
-                                   const bladefit_axis* axis);
-
-/* The handle's thread. Zone of a point's present verdict: k + 1 for zones[k], 0 for the rest. Returns OK, NOT_FOUND,
- * NULL_ARGUMENT, MISALIGNED or BAD_HANDLE. Cost: logarithmic. */
-bladefit_status bladefit_zone_of(const bladefit_handle* handle, uint32_t sequence, uint32_t* zone);
 
 /* The handle's thread. Projects the point, adds it, moves the pose and judges; bounded work, whatever came before.
  * Returns OK, UNDERDETERMINED, MEMORY_FULL or DUPLICATE (no verdict then); NULL_ARGUMENT, MISALIGNED, BAD_SIZE,

@@ -6,8 +6,8 @@
 
 namespace bladefit {
 
-/// What the pose minimises. d: signed distances; w: 1 at the leading edge, the ratio of the tolerances on the rest; with
-/// zones the tolerance of each on the side of d.
+/// What the pose minimises. d: signed distances; w: 1 at the leading edge, the ratio of the tolerances on the rest;
+/// with zones the tolerance of each on the side of d.
 enum class FitMode : std::uint8_t {
   least_squares = 0,  ///< sum d^2
   minimax = 1,        ///< max |d|

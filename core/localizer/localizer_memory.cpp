@@ -1,19 +1,9 @@
-#include <algorithm>
-#include <limits>
-#include <new>
+#include "core/localizer/localizer_memory.hpp"
 
-#include "core/localizer.hpp"
-#include "core/localizer/check_config.hpp"
-#include "core/localizer/localizer_parts.hpp"
+#include <new>
 
 namespace bladefit {
 namespace {
-
-constexpr std::size_t kAlignment = 64;
-/// Where addresses have 32 bits, a large capacity needs more than that.
-constexpr std::uint64_t kMoreThanThereIs = std::numeric_limits<std::size_t>::max() - 4096;
-
-constexpr std::uint64_t rounded_up(std::uint64_t size) { return (size + kAlignment - 1) / kAlignment * kAlignment; }
 
 /// Takes the next `count` objects out of the block at `place`, each constructed.
 template <class Object>
@@ -26,7 +16,7 @@ Object* placed(std::byte*& place, std::size_t count) {
 
 }  // namespace
 
-std::array<MemoryPart, 9> Localizer::memory_parts(const LocalizerConfig& config) {
+std::array<MemoryPart, 9> parts_in_memory(const LocalizerConfig& config) {
   const bool bounded = config.mode != FitMode::least_squares;
   const std::uint64_t points = config.capacity;
   const std::uint64_t rows = bounded ? BoundRows::doubles_for(points) : 0;
@@ -44,26 +34,7 @@ std::array<MemoryPart, 9> Localizer::memory_parts(const LocalizerConfig& config)
            {"other sheets of the points", rounded_up(sizeof(KeptPlaces) * places)}}};
 }
 
-std::size_t Localizer::memory_required(const LocalizerConfig& config) {
-  std::uint64_t size = 0;
-  for (const MemoryPart& part : memory_parts(config)) size += part.size;
-  return static_cast<std::size_t>(std::min<std::uint64_t>(size, kMoreThanThereIs));
-}
-
-Status Localizer::create(std::span<std::byte> memory, const DesignImage& design, const LocalizerConfig& config,
-                         Localizer*& localizer) {
-  if (memory.data() == nullptr || design.patches().empty()) return Status::null_argument;
-  if (reinterpret_cast<std::uintptr_t>(memory.data()) % kAlignment != 0) return Status::misaligned;
-  if (check_config(config, design.patches().size())) return Status::out_of_range;
-  if (memory.size() < memory_required(config)) return Status::not_enough_memory;
-
-  localizer = new (memory.data()) Localizer(build(memory.data() + rounded_up(sizeof(Localizer)), design, config));
-  localizer->reset();
-  return Status::ok;
-}
-
-/// The parts at `place`, which has room for memory_required().
-LocalizerParts& Localizer::build(std::byte* place, const DesignImage& design, const LocalizerConfig& config) {
+LocalizerParts& build_parts(std::byte* place, const DesignImage& design, const LocalizerConfig& config) {
   auto* parts = new (place) LocalizerParts(design, config);
   place += rounded_up(sizeof(LocalizerParts));
   auto* points = placed<StoredPoint>(place, config.capacity);
@@ -77,19 +48,5 @@ LocalizerParts& Localizer::build(std::byte* place, const DesignImage& design, co
   }
   return *parts;
 }
-
-Status Localizer::set_tolerance(const ToleranceMap& map) {
-  const DesignImage design = parts_->problem.surface.image();
-  LocalizerConfig wanted = config();
-  wanted.tolerance = map;
-  if (parts_->stream.accepted > 0 || check_config(wanted, design.patches().size())) return Status::out_of_range;
-  parts_ = &build(reinterpret_cast<std::byte*>(parts_), design, wanted);
-  reset();
-  return Status::ok;
-}
-
-const LocalizerConfig& Localizer::config() const { return parts_->problem.config; }
-
-std::size_t Localizer::patches() const { return parts_->problem.surface.image().patches().size(); }
 
 }  // namespace bladefit

@@ -65,7 +65,8 @@ void BoundTracker::go_to(const Pose& pose) {
   disturb();
 }
 
-void BoundTracker::set_row(std::uint32_t place, const DistanceRow& row, const Limits& weight, const MotionBasis& basis) {
+void BoundTracker::set_row(std::uint32_t place, const DistanceRow& row, const Limits& weight,
+                           const MotionBasis& basis) {
   fit_.set_basis(basis);
   (void)fit_.set_weight(place, weight);
   fit_.set_row(place, row);

@@ -31,8 +31,8 @@ class BoundTracker {
   [[nodiscard]] std::uint32_t point(std::uint32_t place) const { return points_[place]; }
   [[nodiscard]] bool holds(std::uint32_t point) const;
 
-  /// A distance `d` [mm] of weight `w` on either side at this pose does not fit into the present solution. Before the first step every
-  /// distance does that finds a place.
+  /// A distance `d` [mm] of weight `w` on either side at this pose does not fit into the present solution. Before the
+  /// first step every distance does that finds a place.
   [[nodiscard]] bool violated(double d, const Limits& w) const;
   /// Takes a point in. Cost: one pass over the places.
   void hold(std::uint32_t point);

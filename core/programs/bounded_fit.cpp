@@ -197,8 +197,8 @@ ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
   return linear;
 }
 
-/// min of the model with the curvature of the active constraints, d + J x within its tolerances. Where that is not convex the
-/// Gauss-Newton Hessian takes its place.
+/// min of the model with the curvature of the active constraints, d + J x within its tolerances. Where that is not
+/// convex the Gauss-Newton Hessian takes its place.
 ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
   Mat8 hessian = Mat8::Identity();
   Vec8 gradient = Vec8::Zero();

@@ -74,7 +74,9 @@ class BoundedFit {
                                             double share) const {
     if (mode_ == FitMode::range) return {found.least - share * value, found.most + share * value};
     const auto bound = [&](double weight) {
-      const double of_mode = mode_ == FitMode::minimax ? value : mode_ == FitMode::constrained ? weight : weight * value;
+      const double of_mode = mode_ == FitMode::minimax       ? value
+                             : mode_ == FitMode::constrained ? weight
+                                                             : weight * value;
       return of_mode * (1.0 + share);
     };
     return {-bound(w.minus()), bound(w.plus())};

@@ -32,7 +32,7 @@ struct ConstraintRows {
   const double* upper = nullptr;         ///< `count` bounds, +infinity = none; null: none for any row
   const double* weight = nullptr;        ///< w; null: all 1
   int lower_level = -1, upper_level = -1;
-  int plain = 0;  ///< so many rows at the end have no level terms
+  int plain = 0;                         ///< so many rows at the end have no level terms
   const double* lower_weight = nullptr;  ///< v; null: all w
 };
 

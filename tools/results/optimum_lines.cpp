@@ -76,7 +76,8 @@ std::string optimum_lines(const Result& result) {
                                         point_list(result.certificate), held, result.details->stationarity);
   switch (result.details->mode) {
     case FitMode::minimax:
-      return fmt::format("Largest distance: {}, the smallest found{}\n", length_text(result, factor), other_starts(result)) +
+      return fmt::format("Largest distance: {}, the smallest found{}\n", length_text(result, factor),
+                         other_starts(result)) +
              proof;
     case FitMode::range:
       return fmt::format("Range of distances: {}, the smallest found{}\n", length_text(result, factor),
@@ -88,7 +89,8 @@ std::string optimum_lines(const Result& result) {
                proof;
       }
       return fmt::format("Smallest leading-edge tolerance that can be met: {} (rest of blade {}){}\n",
-                         length_text(result, factor), length_text(result, result.details->ratio * factor), other_starts(result)) +
+                         length_text(result, factor), length_text(result, result.details->ratio * factor),
+                         other_starts(result)) +
              proof;
     case FitMode::constrained:
       return infeasible_lines(result);

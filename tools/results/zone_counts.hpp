@@ -31,9 +31,9 @@ struct ZoneCounts {
 /// By what the tolerances of zones and rest can be multiplied so that some pose just meets them, as the modes
 /// min_tolerance and constrained find it. What is allowed on either side of a zone is multiplied alike.
 struct ZoneShare {
-  double factor = 0;                      ///< 0: not sought, or there are no zones
-  double tightest = 0;                    ///< the tolerance [mm] that Result::tolerance_factor is a multiple of: the
-  Region region = Region::leading_edge;   ///< smallest of this region, on either side
+  double factor = 0;                     ///< 0: not sought, or there are no zones
+  double tightest = 0;                   ///< the tolerance [mm] that Result::tolerance_factor is a multiple of: the
+  Region region = Region::leading_edge;  ///< smallest of this region, on either side
 };
 [[nodiscard]] ZoneShare zone_share(const Result& result);
 

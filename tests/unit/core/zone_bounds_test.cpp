@@ -32,8 +32,7 @@ LocalizerConfig zone_config(const ZoneCase& given, std::size_t points) {
   map.box_count = 1;
   const auto zone = [&](Region region, bool everywhere, double from, const Limits& limits) {
     const double infinite = std::numeric_limits<double>::infinity();
-    return ToleranceZone{region,   everywhere, from, infinite, given.scale * limits.plus(),
-                         given.scale * limits.minus()};
+    return ToleranceZone{region, everywhere, from, infinite, given.scale * limits.plus(), given.scale * limits.minus()};
   };
   map.zones[0] = zone(Region::leading_edge, false, 0.0, kEdgeLimits);
   map.zones[1] = zone(Region::rest, true, kBandFrom, kBandLimits);

@@ -3,6 +3,7 @@
 #define BLADEFIT_TESTS_UNIT_BRIDGE_C_ABI_H
 
 #include "firmware_bridge/bladefit.h"
+#include "firmware_bridge/bladefit_zones.h"
 
 #ifdef __cplusplus
 extern "C" {

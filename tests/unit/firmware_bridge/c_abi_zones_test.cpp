@@ -10,7 +10,7 @@
 namespace bladefit::testing {
 namespace {
 
-constexpr std::uint32_t kZonedPoints = 1000;
+constexpr std::uint32_t kZonedPoints = 2000;
 
 struct ZonedSession {
   bladefit_status status = BLADEFIT_OK;
@@ -114,9 +114,8 @@ TEST_F(BridgeCAbiZonesRefused, ForEveryWrongField) {
   refused(BLADEFIT_OUT_OF_RANGE, [this] { zone_.reserved = 1; });
   refused(BLADEFIT_OUT_OF_RANGE, [this] { axis_.reserved = 1; });
   refused(BLADEFIT_NULL_ARGUMENT, [this] { zone_.boxes = nullptr; });
-  refused(BLADEFIT_MISALIGNED, [this] {
-    zone_.boxes = reinterpret_cast<const bladefit_box*>(reinterpret_cast<const char*>(&box_) + 1);
-  });
+  refused(BLADEFIT_MISALIGNED,
+          [this] { zone_.boxes = reinterpret_cast<const bladefit_box*>(reinterpret_cast<const char*>(&box_) + 1); });
   refused(BLADEFIT_OUT_OF_RANGE, [this] { zone_.box_count = BLADEFIT_MAX_ZONE_BOXES + 1; });
   refused(BLADEFIT_OUT_OF_RANGE, [this] { box_.reserved = 1; });
   refused(BLADEFIT_OUT_OF_RANGE, [this] { box_.patch = 1000; });
