@@ -38,7 +38,8 @@ std::string zones_toml() {
              "judged by the first zone that its foot lies in, outside of all by rest_tolerance. where: a leading "
              "edge as leading_edge takes it, a band of radii r/R 0.7:1.0 (limits included, from 0 to 1.2, of "
              "tip_radius about axis), or both: then within that band; plus: excess material that is allowed, "
-             "minus: missing material, in units. Modes with zones: least_squares, minimax, range") +
+             "minus: missing material, in units. The modes min_tolerance and constrained need rest_tolerance beside "
+             "them") +
          "# [[zone]]\n# name = \"tip edge\"\n# where = \"auto:5mm r/R 0.7:1.0\"\n# plus = 0.10\n# minus = 0.05\n"
          "\n# [[zone]]\n# name = \"outer blade\"\n# where = \"r/R 0.7:1.0\"\n# plus = \"0.3mm\"\n# minus = "
          "\"0.2mm\"\n";

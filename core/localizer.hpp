@@ -101,8 +101,9 @@ struct FitReport {
   /// where constrained is infeasible, the smallest leading-edge tolerance that is not, the ratio kept, or where there
   /// is none the smallest tolerance of the rest [mm]. 0 until known.
   double mode_value_mm = 0;
-  /// Smallest leading-edge tolerance that some pose meets, the ratio kept, from min_tolerance and constrained [mm]. 0
-  /// until known, and where the least-squares optimum meets the tolerances: then it is not sought.
+  /// Smallest leading-edge tolerance that some pose meets, the ratio kept (with zones the tightest one of the leading
+  /// edge, or where it has none of the rest, all multiplied by the same factor), from min_tolerance and constrained
+  /// [mm]. 0 until known, and where the least-squares optimum meets the tolerances: then it is not sought.
   double smallest_tolerance_mm = 0;
   Certificate certificate;  ///< of that optimum; no points in least squares, range and a feasible constrained fit
   double stationarity = 0;  ///< of its Karush-Kuhn-Tucker conditions, relative: the self check of the mode
@@ -144,6 +145,14 @@ class Localizer {
   /// not_enough_memory or out_of_range (a field of config).
   [[nodiscard]] static Status create(std::span<std::byte> memory, const DesignImage& design,
                                      const LocalizerConfig& config, Localizer*& localizer);
+
+  /// Other tolerances than those of create(), before the first point or after reset(). Returns ok; out_of_range (a
+  /// field of `map`, or there are points): then nothing has changed. Cost: linear in the capacity.
+  [[nodiscard]] Status set_tolerance(const ToleranceMap& map);
+
+  [[nodiscard]] const LocalizerConfig& config() const;
+  /// Of the design.
+  [[nodiscard]] std::size_t patches() const;
 
   /// Projects the point, adds it, moves the pose and judges. Bounded work, whatever came before.
   /// Returns ok, underdetermined, memory_full or duplicate; not_finite or out_of_range (approach not a unit vector or

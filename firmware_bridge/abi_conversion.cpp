@@ -10,6 +10,7 @@ namespace bladefit {
 namespace {
 
 static_assert(BLADEFIT_MAX_BOXES <= ToleranceMap::kMaxBoxes && BLADEFIT_MAX_CAPACITY == kMostCapacity);
+static_assert(BLADEFIT_MAX_ZONES == ToleranceMap::kMaxZones && BLADEFIT_MAX_ZONE_BOXES == ToleranceMap::kMaxBoxes);
 static_assert(BLADEFIT_NOT_FINITE == static_cast<int>(Status::not_finite) &&
               BLADEFIT_OUT_OF_RANGE == static_cast<int>(Status::out_of_range));
 
@@ -27,13 +28,15 @@ bool numbers_fit(const bladefit_config& config) {
          config.decision <= BLADEFIT_GUARDED;
 }
 
+ParameterBox box_from(const bladefit_box& box, std::uint32_t zone) {
+  return {box.patch, box.u_min, box.u_max, box.v_min, box.v_max, zone};
+}
+
 ToleranceMap tolerance_from(const bladefit_config& config) {
   ToleranceMap map;
   map.box_count = config.box_count;
   std::ranges::transform(std::span(config.boxes).first(config.box_count), map.boxes.begin(),
-                         [](const bladefit_box& box) {
-                           return ParameterBox{box.patch, box.u_min, box.u_max, box.v_min, box.v_max};
-                         });
+                         [](const bladefit_box& box) { return box_from(box, 0); });
   map.leading_edge_mm = config.leading_edge_tolerance_mm;
   map.rest_mm = config.rest_tolerance_mm;
   map.transition = config.transition;
@@ -53,7 +56,46 @@ bladefit_certificate translate_certificate(const Certificate& from) {
   return to;
 }
 
+bladefit_status check_zone(const bladefit_zone& zone) {
+  if (zone.struct_size != sizeof(bladefit_zone)) return BLADEFIT_BAD_SIZE;
+  if (zone.reserved != 0 || zone.region > BLADEFIT_LEADING_EDGE) return BLADEFIT_OUT_OF_RANGE;
+  if (zone.box_count == 0) return BLADEFIT_OK;
+  if (zone.boxes == nullptr) return BLADEFIT_NULL_ARGUMENT;
+  return reinterpret_cast<std::uintptr_t>(zone.boxes) % alignof(bladefit_box) == 0 ? BLADEFIT_OK : BLADEFIT_MISALIGNED;
+}
+
+/// Adds zone number `number`, from 1.
+bladefit_status add_zone(const bladefit_zone& from, std::uint32_t number, ToleranceMap& map) {
+  if (const bladefit_status status = check_zone(from); status != BLADEFIT_OK) return status;
+  if (from.box_count > BLADEFIT_MAX_ZONE_BOXES - map.box_count) return BLADEFIT_OUT_OF_RANGE;
+  for (std::uint32_t k = 0; k < from.box_count; ++k) {
+    if (from.boxes[k].reserved != 0) return BLADEFIT_OUT_OF_RANGE;
+    map.boxes[map.box_count++] = box_from(from.boxes[k], number);
+  }
+  map.zones[number - 1] = {static_cast<Region>(from.region),
+                           from.box_count == 0,
+                           from.radius_low_mm,
+                           from.radius_high_mm,
+                           from.plus_mm,
+                           from.minus_mm};
+  return BLADEFIT_OK;
+}
+
 }  // namespace
+
+bladefit_status translate_zones(std::span<const bladefit_zone> zones, const bladefit_axis* axis, ToleranceMap& map) {
+  if (zones.empty() || zones.size() > BLADEFIT_MAX_ZONES) return BLADEFIT_OUT_OF_RANGE;
+  map.box_count = 0;
+  map.zone_count = static_cast<std::uint32_t>(zones.size());
+  map.axis = ShaftAxis();
+  for (std::uint32_t k = 0; k < map.zone_count; ++k) {
+    if (const bladefit_status status = add_zone(zones[k], k + 1, map); status != BLADEFIT_OK) return status;
+  }
+  if (axis == nullptr) return BLADEFIT_OK;
+  if (axis->reserved != 0) return BLADEFIT_OUT_OF_RANGE;
+  map.axis = {Eigen::Map<const Vec3>(axis->point), Eigen::Map<const Vec3>(axis->direction)};
+  return BLADEFIT_OK;
+}
 
 bladefit_status translate_config(const bladefit_config& from, LocalizerConfig& to) {
   if (!numbers_fit(from)) return BLADEFIT_OUT_OF_RANGE;

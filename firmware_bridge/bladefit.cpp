@@ -1,4 +1,5 @@
 #include "firmware_bridge/bladefit.h"
+#include "firmware_bridge/bladefit_zones.h"
 
 #include <cstdint>
 #include <new>
@@ -86,6 +87,8 @@ const char* bladefit_status_text(bladefit_status status) {
       return "struct_size is not that of this version of the struct";
     case BLADEFIT_POINTS_REFUSED:
       return "some points of the batch were not taken";
+    case BLADEFIT_TOO_LATE:
+      return "there are points already; set zones before the first one, or after bladefit_reset";
     case BLADEFIT_BAD_HANDLE:
       return "the handle does not come from a successful bladefit_init";
     default:
@@ -128,6 +131,31 @@ bladefit_status bladefit_init(void* memory, size_t memory_size, const void* desi
   if (status != Status::ok) return to_abi(status);
   *handle = new (memory) bladefit_handle{mark_of(memory), localizer};
   return BLADEFIT_OK;
+}
+
+bladefit_status bladefit_set_zones(bladefit_handle* handle, const bladefit_zone* zones, uint32_t count,
+                                   const bladefit_axis* axis) {
+  if (const bladefit_status status = check_handle(handle); status != BLADEFIT_OK) return status;
+  if (const bladefit_status status = check_pointer(zones, alignof(bladefit_zone)); status != BLADEFIT_OK) return status;
+  if (axis != nullptr) {
+    if (const bladefit_status status = check_struct(axis); status != BLADEFIT_OK) return status;
+  }
+  Localizer& localizer = *handle->localizer;
+  LocalizerConfig wanted = localizer.config();
+  const bladefit_status status = bladefit::translate_zones({zones, count}, axis, wanted.tolerance);
+  if (status != BLADEFIT_OK) return status;
+  if (const auto fault = bladefit::check_config(wanted, localizer.patches())) return to_abi(fault.status);
+  if (localizer.set_tolerance(wanted.tolerance) != Status::ok) return BLADEFIT_TOO_LATE;
+  return BLADEFIT_OK;
+}
+
+bladefit_status bladefit_zone_of(const bladefit_handle* handle, uint32_t sequence, uint32_t* zone) {
+  if (const bladefit_status status = check_handle(handle); status != BLADEFIT_OK) return status;
+  if (const bladefit_status status = check_pointer(zone, alignof(uint32_t)); status != BLADEFIT_OK) return status;
+  Verdict verdict;
+  const Status status = handle->localizer->verdict_of(sequence, verdict);
+  if (succeeded(status)) *zone = verdict.zone;
+  return to_abi(status);
 }
 
 bladefit_status bladefit_push(bladefit_handle* handle, const bladefit_point* point, bladefit_verdict* verdict) {

@@ -28,7 +28,7 @@ cat >"$scratch/host.c" <<'END'
 #include <stdio.h>
 #include <string.h>
 
-#include "firmware_bridge/bladefit.h"
+#include "firmware_bridge/bladefit_zones.h"
 
 int main(void) {
   static const double design[64];
@@ -39,8 +39,11 @@ int main(void) {
   bladefit_verdict verdict;
   bladefit_fit_report report;
   bladefit_status pushed;
+  bladefit_zone zone;
+  uint32_t number;
   int refused = 0;
   memset(&point, 0, sizeof point);
+  memset(&zone, 0, sizeof zone);
   if (bladefit_abi_version() != BLADEFIT_ABI_VERSION) return 1;
   if (bladefit_memory_required(&config, design, sizeof design) != 0) return 2;
   if (bladefit_design_check(design, sizeof design) != BLADEFIT_BAD_MAGIC) return 5;
@@ -52,9 +55,11 @@ int main(void) {
   refused += bladefit_conclude(handle) < 0;
   refused += bladefit_fit(handle, &report) < 0;
   refused += bladefit_verdict_of(handle, 1, &verdict) < 0;
+  refused += bladefit_set_zones(handle, &zone, 1, NULL) < 0;
+  refused += bladefit_zone_of(handle, 1, &number) < 0;
   refused += bladefit_reset(handle) < 0;
   printf("%s\n", bladefit_status_text(BLADEFIT_BAD_MAGIC));
-  return refused == 8 ? 0 : 4;
+  return refused == 10 ? 0 : 4;
 }
 END
 "${CC:-cc}" -std=c99 -pedantic -Wall -Wextra -Werror -I. "$scratch/host.c" "${archives[@]}" -lm -o "$scratch/host"

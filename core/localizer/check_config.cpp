@@ -77,6 +77,22 @@ ConfigFault check_zone(const ToleranceZone& zone) {
   return kNone;
 }
 
+bool bounds_by_zone(FitMode mode) { return mode == FitMode::min_tolerance || mode == FitMode::constrained; }
+
+/// Tolerances that are bounds, or weights of these: a side without one has no multiple of it, and without one on the
+/// rest nothing would hold the blade there.
+ConfigFault check_bounding_zones(const ToleranceMap& map) {
+  for (std::uint32_t k = 0; k < map.zone_count; ++k) {
+    if (std::isfinite(map.zones[k].limits().nearer()) != std::isfinite(map.zones[k].limits().farther())) {
+      return out_of_range("tolerance.zones.plus_mm",
+                          "must be finite where minus_mm is, in the modes min_tolerance and constrained");
+    }
+  }
+  if (!std::isfinite(map.rest_mm))
+    return out_of_range("tolerance.rest_mm", "must be finite in the modes min_tolerance and constrained with zones");
+  return kNone;
+}
+
 /// A zone that is not everywhere has a box, and every box belongs to one of those.
 ConfigFault check_zones(const LocalizerConfig& c) {
   const ToleranceMap& map = c.tolerance;
@@ -96,10 +112,7 @@ ConfigFault check_zones(const LocalizerConfig& c) {
   if (map.transition != 0.0) return out_of_range("tolerance.transition", "must be 0 where there are zones");
   if (!(std::abs(map.axis.direction.norm() - 1.0) < kOrthogonal))
     return out_of_range("tolerance.axis.direction", "must be of length 1");
-  // Their bounds are multiples of two tolerances, the same on both sides.
-  if (c.mode == FitMode::min_tolerance || c.mode == FitMode::constrained)
-    return out_of_range("mode", "must be least_squares, minimax or range where there are zones");
-  return kNone;
+  return bounds_by_zone(c.mode) ? check_bounding_zones(map) : kNone;
 }
 
 ConfigFault check_lengths(const LocalizerConfig& c) {

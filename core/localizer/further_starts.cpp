@@ -91,7 +91,8 @@ void FurtherStarts::sweep_on(PointStore& store, ModeProgram& program, KeptSheets
 
 /// The first feet of a start are those of the optimum found before, tracked. Of what is far out the nearest are sought.
 bool FurtherStarts::matters(const ModeProgram& program, std::uint32_t i, const Measurement& m) const {
-  return own_.value == kInfinity || std::abs(m.foot.distance) > tuning::kStartSearch * own_.value * program.unit_of(i);
+  return own_.value == kInfinity ||
+         std::abs(m.foot.distance) > tuning::kStartSearch * own_.value * program.unit_of(i, m.foot.distance);
 }
 
 void FurtherStarts::take_in(PointStore& store, std::uint32_t i, const Measurement& m, ModeProgram& program,

@@ -19,9 +19,9 @@ ModeFit::ModeFit(const FitProblem& problem, const ModePlan& plan, const FootFind
       sheets_(problem),
       starts_(problem, plan, finder, selection) {}
 
-void ModeFit::attach(double* rows, SurfacePlace* places, std::uint32_t capacity) {
+void ModeFit::attach(double* rows, KeptPlaces* places, std::uint32_t capacity) {
   program_.attach(rows, capacity);
-  sheets_.attach(places, capacity);
+  sheets_.attach(places);
 }
 
 void ModeFit::restart() {

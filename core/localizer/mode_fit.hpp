@@ -15,7 +15,7 @@ class ModeFit {
           PointSelection& selection, RunningSums& sums, PoseEstimate& estimate, VerdictBook& verdicts, Sweep& sweep);
 
   /// As BoundRows::doubles_for() and KeptSheets::attach().
-  void attach(double* rows, SurfacePlace* places, std::uint32_t capacity);
+  void attach(double* rows, KeptPlaces* places, std::uint32_t capacity);
   /// A refinement begins.
   void restart();
   /// What is under way is given up.

@@ -33,13 +33,22 @@ constexpr bool in_order() {
 }
 static_assert(std::size(kModes) == kFitModeWords.size() && in_order());
 
+Limits limits_by_zone(const ToleranceMap& map, const Foot& foot) {
+  const MapPart part = part_at(map, foot.patch, foot.u, foot.v, foot.point);
+  return part.zone != 0 ? map.zones[part.zone - 1].limits() : Limits::both(map.rest_mm);
+}
+
 }  // namespace
 
 const ModeRow& mode_row(FitMode mode) { return kModes[static_cast<std::size_t>(mode)]; }
 
-ModePlan::ModePlan(const FitProblem& problem) : row_(mode_row(problem.config.mode)), bounds_(problem.config.tolerance) {
-  if (may_be_infeasible()) {
-    unit_ = std::isfinite(bounds_.leading_edge_mm) ? bounds_.leading_edge_mm : bounds_.rest_mm;
+ModePlan::ModePlan(const FitProblem& problem)
+    : row_(mode_row(problem.config.mode)),
+      bounds_(problem.config.tolerance),
+      by_zone_(bounds_.zone_count > 0 && row_.compared == Compared::by_bound) {
+  if (may_be_infeasible() || by_zone_) {
+    const double edge = tightest_of(bounds_, Region::leading_edge);
+    unit_ = std::isfinite(edge) ? edge : tightest_of(bounds_, Region::rest);
   } else {
     bounds_.leading_edge_mm = 1.0;
     bounds_.rest_mm = problem.config.ratio;
@@ -50,9 +59,10 @@ bool ModePlan::goes_on(double value) const {
   return row_.then == Then::always || (row_.then == Then::if_feasible && value <= 1.0 + tuning::kFeasible);
 }
 
-double ModePlan::weight(const Foot& foot) const {
-  const double bound = tolerance_at(bounds_, foot.patch, foot.u, foot.v);
-  return std::isfinite(bound) ? bound : 0.0;
+Limits ModePlan::weight(const Foot& foot) const {
+  const Limits bound =
+      by_zone_ ? limits_by_zone(bounds_, foot) : Limits::both(tolerance_at(bounds_, foot.patch, foot.u, foot.v));
+  return std::isfinite(bound.farther()) ? bound : Limits::both(0.0);
 }
 
 void ModeOptimum::take(const ModeRow& program, double found, const Certificate& proof) {

@@ -18,7 +18,7 @@ struct ModeRow {
   enum class Compared : std::uint8_t { by_distance, by_bound, by_range } compared;
   bool has_value;           ///< its optimum is a length
   bool has_certificate;     ///< that the points of the certificate prove
-  bool value_is_tolerance;  ///< and it is the smallest feasible tolerance of the leading edge
+  bool value_is_tolerance;  ///< and it is the smallest feasible tolerance of the leading edge, the others in proportion
 };
 
 [[nodiscard]] const ModeRow& mode_row(FitMode mode);
@@ -36,15 +36,17 @@ class ModePlan {
   /// Whether the last program follows after the first one has found this value.
   [[nodiscard]] bool goes_on(double value) const;
 
-  /// w of a foot: its tolerance [mm] in a constrained fit; else 1 at the leading edge and the ratio on the rest. 0: its
-  /// distance has no bound.
-  [[nodiscard]] double weight(const Foot& foot) const;
-  /// What a value of the programs is a multiple of [mm].
+  /// w of a foot on either side: its tolerances [mm] in a constrained fit and where there are zones; else 1 at the
+  /// leading edge and the ratio on the rest. 0 on both: its distance has no bound.
+  [[nodiscard]] Limits weight(const Foot& foot) const;
+  /// What a value of the programs is a multiple of [mm]: 1 where weights are shares, else the tightest tolerance of the
+  /// leading edge, or where it has none of the rest.
   [[nodiscard]] double unit() const { return unit_; }
 
  private:
   const ModeRow& row_;
   ToleranceMap bounds_;
+  bool by_zone_;  ///< weights are the tolerances of zones
   double unit_ = 1.0;
 };
 

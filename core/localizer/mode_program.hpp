@@ -30,8 +30,8 @@ class ModeProgram {
   void refuse_pose() { fit_.refuse_pose(); }
   void free_limit(std::uint32_t k) { fit_.free_limit(k); }
   [[nodiscard]] std::uint32_t held_feet() const { return fit_.active_limits(); }
-  /// What the distance of a point is compared with, at a value of 1.
-  [[nodiscard]] double unit_of(std::uint32_t index) const;
+  /// What the `distance` of a point is compared with, at a value of 1.
+  [[nodiscard]] double unit_of(std::uint32_t index, double distance) const;
   /// Range of the distances at the present rows [mm].
   [[nodiscard]] double range() const;
   [[nodiscard]] double merit(const QuadraticModel& model) const { return fit_.merit(model); }
@@ -49,7 +49,7 @@ class ModeProgram {
 
   /// Weights and regions of all points from their present feet. Returns the largest relative change of a weight.
   double assign_regions(PointStore& store, VerdictBook& verdicts);
-  /// Whether every point that counts is within the weight of its region.
+  /// Whether every point that counts is within the weights of its region or zone.
   [[nodiscard]] bool bounds_hold(const PointStore& store, const PointSelection& selection) const;
   enum class Regions : std::uint8_t { at_rest, changed, restless };
   /// The same where regions follow their feet: at an optimum. Restless: they have changed too often.

@@ -14,7 +14,7 @@ class Refinement {
              VerdictBook& verdicts);
 
   /// As ModeFit::attach().
-  void attach(double* rows, SurfacePlace* places, std::uint32_t capacity) { mode_.attach(rows, places, capacity); }
+  void attach(double* rows, KeptPlaces* places, std::uint32_t capacity) { mode_.attach(rows, places, capacity); }
   /// Forgets all points.
   void clear();
   /// A point has come, or more is wanted than what was found: what is under way is given up.

@@ -18,11 +18,11 @@ class SheetDescent {
   explicit SheetDescent(const FitProblem& problem) : problem_(problem) {}
 
   /// As KeptSheets::attach().
-  void attach(SurfacePlace* places, std::uint32_t capacity) { sheets_.attach(places, capacity); }
+  void attach(KeptPlaces* places) { sheets_.attach(places); }
   /// For another search that needs sheets, between two programs.
   [[nodiscard]] KeptSheets& sheets() { return sheets_; }
   /// The place that the foot of a point is sought from.
-  [[nodiscard]] const SurfacePlace& kept(std::uint32_t index) const { return sheets_.kept(index); }
+  [[nodiscard]] SurfacePlace kept(std::uint32_t index) const { return sheets_.kept(index); }
 
   /// A program begins with the feet that the points have. `there`: at the pose where the last one ended, so that what
   /// was held there is held on.

@@ -33,7 +33,7 @@ StreamOptimum::Seeds StreamOptimum::seeds(const PointStore& store, std::uint32_t
   const double middle = compared == ModeRow::Compared::by_range ? middle_distance(store, stride) : 0.0;
   for (std::uint32_t i = 0; i < store.size(); i += stride) {
     const Foot& foot = store[i].foot;
-    const double weight = compared == ModeRow::Compared::by_bound ? plan_.weight(foot) : 1.0;
+    const double weight = compared == ModeRow::Compared::by_bound ? plan_.weight(foot).of(foot.distance) : 1.0;
     if (selection_.left_out(store[i], foot) || weight == 0.0) continue;
     out.offer(i, std::abs(foot.distance - middle) / weight);
   }
@@ -54,13 +54,13 @@ void StreamOptimum::begin(const PointStore& store, const Pose& pose, std::uint32
 void StreamOptimum::look_at(const PointStore& store, std::uint32_t index, const Measurement& m) {
   const StoredPoint& point = store[index];
   if (!program_.active() || selection_.left_out(point, m.foot)) return;
-  const double weight = plan_.weight(m.foot);
-  bool violated = weight > 0.0 && program_.violated(m.foot.distance, weight) && !program_.holds(index);
+  const Limits weight = plan_.weight(m.foot);
+  bool violated = weight.farther() > 0.0 && program_.violated(m.foot.distance, weight) && !program_.holds(index);
   if (violated) program_.hold(index);
   if (feasibility_.active() && !feasibility_.holds(index)) {
     const Foot foot = finder_.find(point, feasibility_.pose(), Search::keep).foot;
-    const double bound = plan_.weight(foot);
-    if (bound > 0.0 && feasibility_.violated(foot.distance, bound)) {
+    const Limits bound = plan_.weight(foot);
+    if (bound.farther() > 0.0 && feasibility_.violated(foot.distance, bound)) {
       feasibility_.hold(index);
       violated = true;
     }
@@ -75,8 +75,8 @@ void StreamOptimum::set_rows(BoundTracker& tracker, const PointStore& store) con
   for (std::uint32_t place = 0; place < tracker.count(); ++place) {
     const StoredPoint& point = store[tracker.point(place)];
     const Measurement m = finder_.find(point, tracker.pose(), Search::keep);
-    const double weight = plan_.weight(m.foot);
-    if (selection_.left_out(point, m.foot) || weight == 0.0) {
+    const Limits weight = plan_.weight(m.foot);
+    if (selection_.left_out(point, m.foot) || weight.farther() == 0.0) {
       tracker.skip_row(place);
     } else {
       tracker.set_row(place, finder_.row(m, Vec6::Zero()), weight, basis);

@@ -4,28 +4,36 @@
 #include <cmath>
 
 namespace bladefit {
+namespace {
+
+double relative_change(double from, double to) { return from == to ? 0.0 : std::abs(from - to) / std::max(from, to); }
+
+}  // namespace
 
 void BoundRows::attach(double* memory, std::uint32_t capacity) {
   memory_ = memory;
   capacity_ = capacity;
 }
 
-void BoundRows::begin(std::uint32_t count) {
+void BoundRows::begin(std::uint32_t count, bool within) {
   count_ = count;
+  within_ = within;
   limits_ = 0;
 }
 
-double BoundRows::set_weight(std::uint32_t i, double weight) {
-  double& kept = column(kWeight)[i];
-  const double change = kept == weight ? 0.0 : std::abs(kept - weight) / std::max(kept, weight);
-  kept = weight;
-  return change;
+double BoundRows::set_weight(std::uint32_t i, const Limits& weight) {
+  const Limits kept = this->weight(i);
+  column(kWeight)[i] = weight.plus();
+  column(kLowerWeight)[i] = weight.minus();
+  lopsided_ = lopsided_ || weight.plus() != weight.minus();
+  return std::max(relative_change(kept.plus(), weight.plus()), relative_change(kept.minus(), weight.minus()));
 }
 
-void BoundRows::set(std::uint32_t i, const Vec6& gradient, double distance, double half) {
+void BoundRows::set(std::uint32_t i, const Vec6& gradient, double distance) {
+  const Limits bounds = within_ ? weight(i) : Limits::both(0.0);
   for (int k = 0; k < 6; ++k) column(k)[i] = gradient[k];
-  column(kLower)[i] = -half - distance;
-  column(kUpper)[i] = half - distance;
+  column(kLower)[i] = -bounds.minus() - distance;
+  column(kUpper)[i] = bounds.plus() - distance;
 }
 
 void BoundRows::skip(std::uint32_t i) {
@@ -39,7 +47,10 @@ void BoundRows::set_bounds(std::uint32_t i, const Bounds& bounds) {
   column(kUpper)[i] = bounds.upper;
 }
 
-double BoundRows::distance(std::uint32_t i) const { return -0.5 * (column(kLower)[i] + column(kUpper)[i]); }
+double BoundRows::distance(std::uint32_t i) const {
+  const double middle = within_ ? 0.5 * (column(kWeight)[i] - column(kLowerWeight)[i]) : 0.0;
+  return middle - 0.5 * (column(kLower)[i] + column(kUpper)[i]);
+}
 
 BoundRows::Extremes BoundRows::extremes() const {
   Extremes out{kUnbounded, -kUnbounded};
@@ -56,7 +67,7 @@ double BoundRows::largest(bool weighted) const {
   double ratio = 0.0;
   for (std::uint32_t i = 0; i < count_; ++i) {
     const double d = distance(i);
-    if (!std::isnan(d)) ratio = std::max(ratio, std::abs(d) / (weighted ? weight(i) : 1.0));
+    if (!std::isnan(d)) ratio = std::max(ratio, std::abs(d) / (weighted ? weight(i).of(d) : 1.0));
   }
   return ratio;
 }
@@ -90,6 +101,11 @@ ConstraintRows BoundRows::view() const {
   rows.upper = column(kUpper);
   rows.plain = static_cast<int>(limits_);
   return rows;
+}
+
+void BoundRows::add_weights(ConstraintRows& rows) const {
+  rows.weight = column(kWeight);
+  if (lopsided_) rows.lower_weight = column(kLowerWeight);
 }
 
 }  // namespace bladefit

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/algebra/matrix.hpp"
+#include "core/inspection/limits.hpp"
 #include "core/programs/constraint_rows.hpp"
 
 namespace bladefit {
@@ -12,22 +13,23 @@ class BoundRows {
  public:
   /// Conditions beside the distances that a step must keep.
   static constexpr std::uint32_t kMostLimits = 32;
-  /// Doubles of the caller's memory for `capacity` points: six of a gradient, two bounds and a weight for each and for
-  /// the limits.
-  static constexpr std::uint64_t doubles_for(std::uint64_t capacity) { return 9 * (capacity + kMostLimits); }
+  /// Doubles of the caller's memory for `capacity` points: six of a gradient, two bounds and two weights for each and
+  /// for the limits.
+  static constexpr std::uint64_t doubles_for(std::uint64_t capacity) { return 10 * (capacity + kMostLimits); }
 
   void attach(double* memory, std::uint32_t capacity);
-  /// `count` points, and no limit.
-  void begin(std::uint32_t count);
+  /// `count` points, and no limit. `within`: the distances are bounded by their weights, else by multiples of these.
+  void begin(std::uint32_t count, bool within);
   /// Further points, some of them new.
   void resume(std::uint32_t count) { count_ = count; }
   [[nodiscard]] std::uint32_t count() const { return count_; }
 
-  /// Kept until it is set again. Returns how much it changed, relative to the larger one.
-  double set_weight(std::uint32_t i, double weight);
-  [[nodiscard]] double weight(std::uint32_t i) const { return column(kWeight)[i]; }
-  /// |d + gradient x| <= half and the level, where there is one.
-  void set(std::uint32_t i, const Vec6& gradient, double distance, double half);
+  /// That of either side [Limits], kept until it is set again. Returns how much it changed at most, relative to the
+  /// larger one.
+  double set_weight(std::uint32_t i, const Limits& weight);
+  [[nodiscard]] Limits weight(std::uint32_t i) const { return {column(kWeight)[i], column(kLowerWeight)[i]}; }
+  /// d + gradient x is within the weights, or within their multiples.
+  void set(std::uint32_t i, const Vec6& gradient, double distance);
   void skip(std::uint32_t i);
   /// Of gradient x, without the levels.
   struct Bounds {
@@ -42,7 +44,7 @@ class BoundRows {
     double least = 0, most = 0;
   };
   [[nodiscard]] Extremes extremes() const;
-  /// Largest |d| over the weight, or over 1.
+  /// Largest |d| over the weight of its side, or over 1.
   [[nodiscard]] double largest(bool weighted) const;
   /// By how much the distances and the limits break their bounds at most; 0 where they do not.
   [[nodiscard]] double violation() const;
@@ -63,16 +65,19 @@ class BoundRows {
 
   /// All rows, without levels.
   [[nodiscard]] ConstraintRows view() const;
-  [[nodiscard]] const double* weights() const { return column(kWeight); }
+  /// Their levels are multiplied by the weights.
+  void add_weights(ConstraintRows& rows) const;
 
  private:
   /// Columns: 0..5 the gradient, then
-  static constexpr int kLower = 6, kUpper = 7, kWeight = 8;
+  static constexpr int kLower = 6, kUpper = 7, kWeight = 8, kLowerWeight = 9;
   [[nodiscard]] std::size_t stride() const { return std::size_t{capacity_} + kMostLimits; }
   [[nodiscard]] double* column(int k) const { return memory_ + static_cast<std::size_t>(k) * stride(); }
 
   double* memory_ = nullptr;
   std::uint32_t capacity_ = 0, count_ = 0, limits_ = 0;
+  bool within_ = false;
+  bool lopsided_ = false;  ///< a weight was set that is not the same on both sides
 };
 
 }  // namespace bladefit

@@ -25,7 +25,7 @@ bool BoundTracker::holds(std::uint32_t point) const {
   return std::find(points_.begin(), points_.begin() + count_, point) != points_.begin() + count_;
 }
 
-bool BoundTracker::violated(double d, double w) const {
+bool BoundTracker::violated(double d, const Limits& w) const {
   if (!stepped_) return count_ < kPlaces;
   const double margin = kBeyondReach * reach_;
   const BoundRows::Extremes allowed = fit_.allowed(w, value_, {least_, most_}, kBeyond);
@@ -65,7 +65,8 @@ void BoundTracker::go_to(const Pose& pose) {
   disturb();
 }
 
-void BoundTracker::set_row(std::uint32_t place, const DistanceRow& row, double weight, const MotionBasis& basis) {
+void BoundTracker::set_row(std::uint32_t place, const DistanceRow& row, const Limits& weight,
+                           const MotionBasis& basis) {
   fit_.set_basis(basis);
   (void)fit_.set_weight(place, weight);
   fit_.set_row(place, row);

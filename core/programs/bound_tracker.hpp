@@ -31,14 +31,14 @@ class BoundTracker {
   [[nodiscard]] std::uint32_t point(std::uint32_t place) const { return points_[place]; }
   [[nodiscard]] bool holds(std::uint32_t point) const;
 
-  /// A distance `d` [mm] of weight `w` at this pose does not fit into the present solution. Before the first step every
-  /// distance does that finds a place.
-  [[nodiscard]] bool violated(double d, double w) const;
+  /// A distance `d` [mm] of weight `w` on either side at this pose does not fit into the present solution. Before the
+  /// first step every distance does that finds a place.
+  [[nodiscard]] bool violated(double d, const Limits& w) const;
   /// Takes a point in. Cost: one pass over the places.
   void hold(std::uint32_t point);
   /// The rows must be taken again, at pose(), before the next step.
   [[nodiscard]] bool unsettled() const { return unsettled_; }
-  void set_row(std::uint32_t place, const DistanceRow& row, double weight, const MotionBasis& basis);
+  void set_row(std::uint32_t place, const DistanceRow& row, const Limits& weight, const MotionBasis& basis);
   /// The point does not count.
   void skip_row(std::uint32_t place);
   /// One step of the program on the rows; `model`: sum of 1/2 d^2 about pose(). False: the program has no solution.

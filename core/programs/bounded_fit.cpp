@@ -29,7 +29,7 @@ double sign_of(const ActiveSet::Entry& entry) { return entry.side == Side::upper
 
 void BoundedFit::begin(FitMode mode, std::uint32_t count, double reach) {
   mode_ = mode;
-  rows_.begin(count);
+  rows_.begin(count, mode == FitMode::constrained);
   reach_ = trust_ = reach;
   active_ = ActiveSet();
   curvature_.setZero();
@@ -58,7 +58,7 @@ void BoundedFit::set_basis(const MotionBasis& basis) {
 
 void BoundedFit::set_row(std::uint32_t i, const DistanceRow& row) {
   const Vec6 gradient = basis_.free == 6 ? row.gradient : Vec6(basis_.directions.transpose() * row.gradient);
-  rows_.set(i, gradient, row.distance, mode_ == FitMode::constrained ? rows_.weight(i) : 0.0);
+  rows_.set(i, gradient, row.distance);
   for (int k = 0; k < active_.count; ++k) {
     const ActiveSet::Entry& entry = active_.entries[static_cast<std::size_t>(k)];
     if (entry.index == static_cast<int>(i)) {
@@ -95,7 +95,7 @@ double BoundedFit::slack(std::uint32_t i) const {
   const double d = rows_.distance(i);
   if (std::isnan(d)) return kUnbounded;
   if (mode_ == FitMode::minimax) return value() - std::abs(d);
-  if (mode_ != FitMode::range) return value() - std::abs(d) / rows_.weight(i);
+  if (mode_ != FitMode::range) return value() - std::abs(d) / rows_.weight(i).of(d);
   const BoundRows::Extremes found = rows_.extremes();
   return std::min(found.most - d, d - found.least);
 }
@@ -122,7 +122,7 @@ Vec8 BoundedFit::set_levels(Constraints& c) const {
   Vec8 gradient = Vec8::Unit(6);
   c.variables = 7;
   c.rows.lower_level = c.rows.upper_level = 6;
-  if (mode_ == FitMode::min_tolerance) c.rows.weight = rows_.weights();
+  if (mode_ == FitMode::min_tolerance) rows_.add_weights(c.rows);
   if (mode_ == FitMode::range) {
     c.variables = 8;
     c.rows.upper_level = 7;
@@ -159,7 +159,7 @@ ActiveSetResult BoundedFit::solve_corrected() {
   return second.objective < value() ? second : first;
 }
 
-/// min s with |d + J x| <= w s, or min s_high - s_low with s_low <= d + J x <= s_high.
+/// min s with -v s <= d + J x <= w s, or min s_high - s_low with s_low <= d + J x <= s_high.
 ActiveSetResult BoundedFit::solve_levels() const {
   Constraints c = constraints();
   const Vec8 gradient = set_levels(c);
@@ -197,8 +197,8 @@ ActiveSetResult BoundedFit::solve_curved(const ActiveSetResult& linear) const {
   return linear;
 }
 
-/// min of the model with the curvature of the active constraints, |d + J x| <= tolerance. Where that is not convex the
-/// Gauss-Newton Hessian takes its place.
+/// min of the model with the curvature of the active constraints, d + J x within its tolerances. Where that is not
+/// convex the Gauss-Newton Hessian takes its place.
 ActiveSetResult BoundedFit::solve_bounds(const QuadraticModel& model) const {
   Mat8 hessian = Mat8::Identity();
   Vec8 gradient = Vec8::Zero();

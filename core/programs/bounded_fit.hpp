@@ -26,10 +26,10 @@ class BoundedFit {
   void compare_anew();
   [[nodiscard]] FitMode mode() const { return mode_; }
 
-  /// Weight of point i: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set again; a point of
-  /// weight 0 must be skipped. Returns how much it changed, relative to the larger one.
-  double set_weight(std::uint32_t i, double weight) { return rows_.set_weight(i, weight); }
-  [[nodiscard]] double weight(std::uint32_t i) const { return rows_.weight(i); }
+  /// Weight of point i on either side: w of min_tolerance, the tolerance [mm] of constrained. Kept until it is set
+  /// again; a point of weight 0 must be skipped. Returns how much it changed at most, relative to the larger one.
+  double set_weight(std::uint32_t i, const Limits& weight) { return rows_.set_weight(i, weight); }
+  [[nodiscard]] Limits weight(std::uint32_t i) const { return rows_.weight(i); }
   /// Steps go along the free directions of the basis only. Given before the rows of a pose.
   void set_basis(const MotionBasis& basis);
   /// A foot that is held is none any more at the present pose: the step that led here is taken back.
@@ -57,7 +57,8 @@ class BoundedFit {
   /// Cost: some ten passes over the rows.
   [[nodiscard]] Step step(const QuadraticModel& model);
 
-  /// At the present rows: max |d|, max d - min d, max |d| / w, or for constrained max |d| / tolerance.
+  /// At the present rows: max |d|, max d - min d, max |d| / w, or for constrained max |d| / tolerance; w and tolerance
+  /// of the side of d.
   [[nodiscard]] double value() const;
   /// What a step must not raise: the value, in constrained the sum of squares, and a penalty for what it breaks.
   [[nodiscard]] double merit(const QuadraticModel& model) const;
@@ -69,12 +70,16 @@ class BoundedFit {
 
   /// Where the distance of a point of weight w may lie at an optimum of this value with these extremes, widened by a
   /// share of its bound.
-  [[nodiscard]] BoundRows::Extremes allowed(double w, double value, const BoundRows::Extremes& found,
+  [[nodiscard]] BoundRows::Extremes allowed(const Limits& w, double value, const BoundRows::Extremes& found,
                                             double share) const {
     if (mode_ == FitMode::range) return {found.least - share * value, found.most + share * value};
-    const double of_mode = mode_ == FitMode::minimax ? value : mode_ == FitMode::constrained ? w : w * value;
-    const double bound = of_mode * (1.0 + share);
-    return {-bound, bound};
+    const auto bound = [&](double weight) {
+      const double of_mode = mode_ == FitMode::minimax       ? value
+                             : mode_ == FitMode::constrained ? weight
+                                                             : weight * value;
+      return of_mode * (1.0 + share);
+    };
+    return {-bound(w.minus()), bound(w.plus())};
   }
 
   /// How many limits the solution of the last program rests on.

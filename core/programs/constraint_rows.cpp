@@ -12,6 +12,9 @@ using Block = std::array<double, kBlock>;
 /// A maximum that is one instruction, and vectorises.
 double larger(double a, double b) { return a > b ? a : b; }
 
+/// v of the rows; null: all 1.
+const double* lower_weight(const ConstraintRows& rows) { return rows.lower_weight ? rows.lower_weight : rows.weight; }
+
 /// Adds factor * column, or the factor alone where there is no column.
 void add_multiple(Block& sum, const double* column, double factor, int count) {
   for (int i = 0; i < count; ++i) sum[static_cast<std::size_t>(i)] += factor * (column ? column[i] : 1.0);
@@ -36,16 +39,16 @@ void gaps(const ConstraintRows& rows, const Vec8& x, int first, int count, Gaps&
   }
   out.lower.fill(-kUnbounded);
   out.upper.fill(-kUnbounded);
-  const double* weight = rows.weight ? rows.weight + first : nullptr;
+  const auto from_first = [first](const double* weight) { return weight ? weight + first : nullptr; };
   const int leveled = std::clamp(rows.count - rows.plain - first, 0, count);
   const auto n = static_cast<std::size_t>(count);
   if (rows.lower) {
     for (std::size_t i = 0; i < n; ++i) out.lower[i] = rows.lower[static_cast<std::size_t>(first) + i] - value[i];
-    if (rows.lower_level >= 0) add_multiple(out.lower, weight, -x[rows.lower_level], leveled);
+    if (rows.lower_level >= 0) add_multiple(out.lower, from_first(lower_weight(rows)), -x[rows.lower_level], leveled);
   }
   if (rows.upper) {
     for (std::size_t i = 0; i < n; ++i) out.upper[i] = value[i] - rows.upper[static_cast<std::size_t>(first) + i];
-    if (rows.upper_level >= 0) add_multiple(out.upper, weight, -x[rows.upper_level], leveled);
+    if (rows.upper_level >= 0) add_multiple(out.upper, from_first(rows.weight), -x[rows.upper_level], leveled);
   }
 }
 
@@ -103,7 +106,8 @@ HalfSpace half_space(const Constraints& constraints, int index, Side side) {
   }
   for (int j = 0; j < rows.width; ++j) out.normal[j] = sign * rows.coefficients[j * rows.stride + index];
   const int of_level = side == Side::lower ? rows.lower_level : rows.upper_level;
-  if (of_level >= 0 && index < rows.count - rows.plain) out.normal[of_level] += rows.weight ? rows.weight[index] : 1.0;
+  const double* weight = side == Side::lower ? lower_weight(rows) : rows.weight;
+  if (of_level >= 0 && index < rows.count - rows.plain) out.normal[of_level] += weight ? weight[index] : 1.0;
   const double* bound = side == Side::lower ? rows.lower : rows.upper;
   out.offset = bound ? sign * bound[index] : -kUnbounded;
   return out;
@@ -142,7 +146,8 @@ RowMagnitudes magnitudes(const Constraints& constraints) {
   };
   for (int j = 0; j < rows.width; ++j)
     out.largest[j] = take(rows.coefficients + j * rows.stride, kUnbounded, kUnbounded);
-  const double weight = rows.weight ? take(rows.weight, kUnbounded, kUnbounded) : 1.0;
+  double weight = rows.weight ? take(rows.weight, kUnbounded, kUnbounded) : 1.0;
+  if (rows.lower_weight) weight = larger(take(rows.lower_weight, kUnbounded, kUnbounded), weight);
   take(rows.lower, kUnbounded, 0.0);
   take(rows.upper, 0.0, kUnbounded);
   for (const int l : {rows.lower_level, rows.upper_level}) {

@@ -19,9 +19,9 @@ enum class Side : std::uint8_t { lower, upper };
 /// Two-sided linear constraints in the caller's memory, column by column so that a pass over all rows streams and
 /// vectorises. With x the variables, row i with coefficients a_i of x[0..width) says
 ///
-///     a_i'x + w_i x[lower_level] >= lower_i        a_i'x - w_i x[upper_level] <= upper_i
+///     a_i'x + v_i x[lower_level] >= lower_i        a_i'x - w_i x[upper_level] <= upper_i
 ///
-/// so that |d_i + a_i'dx| <= w_i s is one row with lower = upper = -d and both levels the index of s, and
+/// so that -v_i s <= d_i + a_i'dx <= w_i s is one row with lower = upper = -d and both levels the index of s, and
 /// s_lo <= d_i + a_i'dx <= s_hi is one row with levels -s_lo and s_hi. A level of -1 stands for no such term.
 struct ConstraintRows {
   const double* coefficients = nullptr;  ///< column j begins at coefficients + j * stride
@@ -32,7 +32,8 @@ struct ConstraintRows {
   const double* upper = nullptr;         ///< `count` bounds, +infinity = none; null: none for any row
   const double* weight = nullptr;        ///< w; null: all 1
   int lower_level = -1, upper_level = -1;
-  int plain = 0;  ///< so many rows at the end have no level terms
+  int plain = 0;                         ///< so many rows at the end have no level terms
+  const double* lower_weight = nullptr;  ///< v; null: all w
 };
 
 /// What x may be. Bound of variable j counts as constraint `rows.count + j`.

@@ -14,8 +14,10 @@ double largest_row_violation(const ConstraintRows& rows, const Vec8& x) {
   for (int i = 0; i < rows.count; ++i) {
     double value = 0.0;
     for (int j = 0; j < rows.width; ++j) value += rows.coefficients[j * rows.stride + i] * x[j];
-    const double weight = i >= rows.count - rows.plain ? 0.0 : rows.weight ? rows.weight[i] : 1.0;
-    if (rows.lower) largest = std::max(largest, rows.lower[i] - (value + weight * down));
+    const bool leveled = i < rows.count - rows.plain;
+    const double weight = !leveled ? 0.0 : rows.weight ? rows.weight[i] : 1.0;
+    const double lower_weight = leveled && rows.lower_weight ? rows.lower_weight[i] : weight;
+    if (rows.lower) largest = std::max(largest, rows.lower[i] - (value + lower_weight * down));
     if (rows.upper) largest = std::max(largest, value - weight * up - rows.upper[i]);
   }
   return largest;

@@ -6,8 +6,8 @@
 namespace bladefit::fuzz {
 
 std::span<const Reader> readers() {
-  static const std::array<Reader, 11> all = {kPoints, kReadout, kSerial,  kDeviceFile, kSessionFile, kStartPairs,
-                                             kStep,   kIges,    kJournal, kSalvage,    kImage};
+  static const std::array<Reader, 12> all = {kPoints,     kReadout, kSerial, kDeviceFile, kSessionFile, kZonesFile,
+                                             kStartPairs, kStep,    kIges,   kJournal,    kSalvage,     kImage};
   return all;
 }
 

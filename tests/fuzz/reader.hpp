@@ -22,8 +22,9 @@ struct Reader {
 [[nodiscard]] std::span<const Reader> readers();
 
 // One row each, in the sources of what they read.
-extern const Reader kPoints, kReadout, kSerial, kDeviceFile, kSessionFile, kStartPairs;  // reader_of_text.cpp
-extern const Reader kStep, kIges, kJournal, kSalvage, kImage;                            // reader_of_files.cpp
+extern const Reader kPoints, kReadout, kSerial, kDeviceFile, kSessionFile, kZonesFile,
+    kStartPairs;                                               // reader_of_text.cpp
+extern const Reader kStep, kIges, kJournal, kSalvage, kImage;  // reader_of_files.cpp
 
 /// A refusal is one line of printed characters, and does not speak of the language that this is written in.
 [[nodiscard]] std::string broken_words(const std::string& refusal);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "config/device_settings.hpp"
 #include "config/session_settings.hpp"
+#include "config/zone_table.hpp"
 #include "drivers/dro/axis_gatherer.hpp"
 #include "drivers/dro/dro_line.hpp"
 #include "drivers/replay/points_csv.hpp"
@@ -101,6 +104,21 @@ Answer read_toml_file(std::string_view bytes, const Load& load) {
 Answer read_device(std::string_view bytes) { return read_toml_file<SourceSettings>(bytes, load_device); }
 Answer read_session(std::string_view bytes) { return read_toml_file<SessionSettings>(bytes, load_session); }
 
+bool is_sane(const ZoneSettings& zone) {
+  const auto limit = [](const Length& length) { return length.value > 0 && std::isfinite(length.value); };
+  const bool band = zone.place.band && zone.place.band->low >= 0 && zone.place.band->low < zone.place.band->high;
+  return !zone.name.empty() && limit(zone.plus) && limit(zone.minus) && (band || !zone.place.edges.empty());
+}
+
+Answer read_zones(std::string_view bytes) {
+  const MemoryFile file(bytes);
+  std::optional<std::vector<ZoneSettings>> zones;
+  if (const Failure failure = load_zones(file.path(), zones)) return answer_of(failure);
+  const bool some = zones && !zones->empty() && zones->size() <= ToleranceMap::kMaxZones;
+  const auto sane = [](const ZoneSettings& zone) { return is_sane(zone); };
+  return {"", some && std::ranges::all_of(*zones, sane) ? "" : "a zone without a place or a limit was read"};
+}
+
 Answer read_pairs(std::string_view bytes) {
   const MemoryFile file(bytes);
   try {
@@ -120,6 +138,7 @@ const Reader kReadout{"readout", read_readout, nullptr};
 const Reader kSerial{"serial", read_serial, repair_lines};
 const Reader kDeviceFile{"device", read_device, nullptr};
 const Reader kSessionFile{"session", read_session, nullptr};
+const Reader kZonesFile{"zones", read_zones, nullptr};
 const Reader kStartPairs{"pairs", read_pairs, nullptr};
 
 }  // namespace bladefit::fuzz

@@ -28,8 +28,8 @@ libraries=$(dirname "$library")
 foreign=$(nm --dynamic --defined-only --format=just-symbols "$library" | grep -v '^bladefit_' || true)
 [[ -z $foreign ]] || fail "libbladefit.so exports $foreign"
 diff <(nm --dynamic --defined-only --format=just-symbols "$library" | sort) \
-  <(grep -o '\bbladefit_[a-z_]*(' "$prefix/include/bladefit.h" | grep -vE 'bladefit_(config|point|verdict|fit_report)\(' | tr -d '(' | sort -u) ||
-  fail "libbladefit.so and bladefit.h name other calls"
+  <(grep -ho '\bbladefit_[a-z_]*(' "$prefix"/include/bladefit{,_zones}.h | grep -vE 'bladefit_(config|point|verdict|fit_report)\(' | tr -d '(' | sort -u) ||
+  fail "libbladefit.so and its headers name other calls"
 needed=$(readelf --dynamic "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | grep -vE '^(libc|libm)\.so' || true)
 [[ -z $needed ]] || fail "libbladefit.so loads $needed"
 version=$(sed -n 's/^#define BLADEFIT_ABI_VERSION \([0-9]*\).*/\1/p' "$prefix/include/bladefit.h")

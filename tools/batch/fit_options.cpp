@@ -69,7 +69,7 @@ void check_decision(const FitSettings& settings) {
 /// What the core lets pass but no user can have meant.
 void check_choices(const FitSettings& settings, const FitPlan& plan) {
   const LocalizerConfig& fit = plan.localizer;
-  if (fit.mode == FitMode::min_tolerance && fit.tolerance.box_count == 0)
+  if (fit.mode == FitMode::min_tolerance && fit.tolerance.box_count == 0 && fit.tolerance.zone_count == 0)
     throw ToolError("--mode min_tolerance: no leading edge is given; add --leading-edge, or use --mode minimax");
   if (fit.loss == Loss::none && settings.loss_scale)
     throw ToolError("--loss-scale: there is no loss; add --loss huber or tukey");
@@ -84,6 +84,11 @@ std::string explained(const ConfigFault& fault, const LocalizerConfig& fit, std:
     const auto wrong = std::ranges::find_if(fit.tolerance.boxes, [&](const auto& box) { return box.patch >= patches; });
     return fmt::format("--leading-edge: patch {} is not there: the design has {} patch(es), numbered from 0",
                        wrong->patch, patches);
+  }
+  if (field == "tolerance.rest_mm" && fit.tolerance.zone_count > 0) {
+    return fmt::format(
+        "--mode {}: nothing is allowed outside of the zones, where points count in the fit too; add --rest-tolerance",
+        word_of(fit.mode));
   }
   if (field == "tolerance.rest_mm") {
     return "--mode constrained: no tolerance is given; add --tolerance, or use --mode min_tolerance to find the "

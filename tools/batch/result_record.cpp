@@ -78,8 +78,16 @@ void set_tolerances(const FinishedFit& fit, Result& result) {
   const LocalizerConfig& config = fit.plan.localizer;
   const double factor = fit.report.mode_value_mm;
   const bool found = config.mode == FitMode::min_tolerance && factor > 0.0;
-  result.leading_edge.tolerance = found ? factor : tightest_of(config.tolerance, Region::leading_edge);
-  result.rest.tolerance = found ? config.ratio * factor : tightest_of(config.tolerance, Region::rest);
+  const double edge = tightest_of(config.tolerance, Region::leading_edge);
+  const double rest = tightest_of(config.tolerance, Region::rest);
+  if (config.tolerance.zone_count > 0) {
+    const double share = found ? factor / (std::isfinite(edge) ? edge : rest) : 1.0;
+    result.leading_edge.tolerance = share * edge;
+    result.rest.tolerance = share * rest;
+    return;
+  }
+  result.leading_edge.tolerance = found ? factor : edge;
+  result.rest.tolerance = found ? config.ratio * factor : rest;
 }
 
 void add_zones(const FinishedFit& fit, Result& result) {

@@ -35,15 +35,6 @@ void check_other_options(const FitSettings& settings) {
                   given, given));
 }
 
-void check_mode(FitMode mode) {
-  if (mode != FitMode::min_tolerance && mode != FitMode::constrained) return;
-  throw ToolError(
-      fmt::format("--mode {}: its bounds are one tolerance at the leading edge and one on the rest, the same on both "
-                  "sides, not the limits of [[zone]] tables; use --mode least_squares, minimax or range, or leave the "
-                  "zones out",
-                  word_of(mode)));
-}
-
 /// What is seen of a zone on a grid over the design, up to the first place that is its own.
 struct Sighting {
   std::uint32_t own = 0;             ///< places that it is the first zone of
@@ -183,7 +174,6 @@ std::string zone_title(const FitPlan& plan, std::size_t index) {
 void plan_zones(const FitSettings& settings, const Surface& surface, FitPlan& plan) {
   if (!settings.zones) return;
   check_other_options(settings);
-  check_mode(plan.localizer.mode);
   const std::vector<ZoneSettings>& zones = *settings.zones;
   ToleranceMap& map = plan.localizer.tolerance;
   const double tip_mm = plan.tip_radius_mm > 0 ? plan.tip_radius_mm : tip_radius_of(surface, plan.axis);

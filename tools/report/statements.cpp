@@ -8,6 +8,7 @@
 #include "drivers/text/text_number.hpp"
 #include "tools/report/report_text.hpp"
 #include "tools/results/words.hpp"
+#include "tools/results/zone_counts.hpp"
 
 namespace bladefit {
 namespace {
@@ -55,7 +56,13 @@ std::vector<std::string> certificate_sentences(const Result& result) {
       "taken up by the others. They stand as diamonds on the map.",
       infeasible ? "These points prove that the tolerances cannot be met" : "The optimum rests on these points",
       certificate_points(certificate)));
-  sentences.push_back(fmt::format("The value of the optimum is {}{}.", text.with_unit(result.tolerance_factor),
+  const ZoneShare share = zone_share(result);
+  const std::string value =
+      share.factor > 0
+          ? fmt::format("The tolerances of the zones and the rest can just be met once all are multiplied by {:.4f}",
+                        share.factor)
+          : fmt::format("The value of the optimum is {}", text.with_unit(result.tolerance_factor));
+  sentences.push_back(fmt::format("{}{}.", value,
                                   result.further_starts > 0
                                       ? fmt::format("; {} of {} further starts led to it, none to a better one",
                                                     result.same_optimum, result.further_starts)

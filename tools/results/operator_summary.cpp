@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tools/results/optimum_lines.hpp"
 #include "tools/results/words.hpp"
 #include "tools/results/zone_lines.hpp"
 
@@ -20,11 +21,6 @@ constexpr std::size_t kListed = 10;
 /// How a list goes on of which kListed are told.
 std::string and_more(std::size_t count) {
   return count > kListed ? fmt::format(" and {} more", count - kListed) : std::string();
-}
-
-/// Lengths of a result as the operator reads them.
-std::string length(const Result& result, double mm) {
-  return fmt::format("{:.6g} {}", result.in_units(mm), result.units);
 }
 
 std::string where(const Result& result, const ResultPoint& point) {
@@ -106,71 +102,6 @@ std::string fit_remarks(const Result& result) {
   return text + outlier_line(result) + robust_line(result);
 }
 
-/// "points 12, 81 and 407".
-std::string point_list(const Certificate& certificate) {
-  std::string text = "points ";
-  for (std::uint32_t k = 0; k < certificate.count; ++k) {
-    const char* joint = k == 0 ? "" : k + 1 == certificate.count ? " and " : ", ";
-    text += fmt::format("{}{}", joint, certificate.sequence.at(k));
-  }
-  return text;
-}
-
-/// How sure it is that no other pose is better, in words.
-std::string other_starts(const Result& result) {
-  if (result.further_starts == 0) return "";
-  return fmt::format("; {} of {} further starts led to it, none to a better one", result.same_optimum,
-                     result.further_starts);
-}
-
-/// Why no pose meets the tolerances, and how much wider they must be.
-std::string infeasible_lines(const Result& result) {
-  const FitDetails& details = *result.details;
-  const bool leading_edge_judged = std::isfinite(details.leading_edge_tolerance);
-  const bool one = result.boxes.empty() || !leading_edge_judged;  // tolerance for the whole blade
-  const double wanted = one ? details.rest_tolerance : details.leading_edge_tolerance;
-  const double widening =
-      result.tolerance_factor / (leading_edge_judged ? details.leading_edge_tolerance : details.rest_tolerance);
-  const double least = widening * wanted;
-  return fmt::format(
-      "Infeasible: {} cannot be brought within {} together; the least feasible {} is {}.\n"
-      "Measure these points again, or widen the {}\n",
-      point_list(result.certificate), length(result, wanted), one ? "rest tolerance" : "leading-edge tolerance",
-      length(result, least),
-      one ? fmt::format("rest tolerance by {}", length(result, least - wanted))
-          : fmt::format("leading-edge tolerance by {} and the rest tolerance in the same ratio",
-                        length(result, least - wanted)));
-}
-
-/// What the mode found, in words; empty in least squares.
-std::string optimum_line(const Result& result) {
-  const double factor = result.tolerance_factor;
-  if (factor <= 0.0) return "";
-  const std::string held =
-      result.details->held_feet == 0
-          ? std::string()
-          : fmt::format(" while {} other feet are kept from turning from their probe", result.details->held_feet);
-  const std::string proof = fmt::format("Proof: {} cannot all come nearer{} (multipliers balance to {:.1e})\n",
-                                        point_list(result.certificate), held, result.details->stationarity);
-  switch (result.details->mode) {
-    case FitMode::minimax:
-      return fmt::format("Largest distance: {}, the smallest found{}\n", length(result, factor), other_starts(result)) +
-             proof;
-    case FitMode::range:
-      return fmt::format("Range of distances: {}, the smallest found{}\n", length(result, factor),
-                         other_starts(result));
-    case FitMode::min_tolerance:
-      return fmt::format("Smallest leading-edge tolerance that can be met: {} (rest of blade {}){}\n",
-                         length(result, factor), length(result, result.details->ratio * factor), other_starts(result)) +
-             proof;
-    case FitMode::constrained:
-      return infeasible_lines(result);
-    case FitMode::least_squares:
-      break;
-  }
-  return "";
-}
-
 std::string fit_lines(const Result& result) {
   const EulerAngles e = euler_angles(result.pose.rotation);
   const Vec3 t = result.pose.translation / result.mm_per_unit;
@@ -215,7 +146,7 @@ std::string beyond_line(const Result& result) {
   return fmt::format(
       "{} up to {} beyond the edge of the design, where there is no surface to cut or weld to: check whether the blade "
       "is longer there, or was probed past the end of the design; then leave them out with --subset or --window\n",
-      points_that(count, "point lies", "points lie"), length(result, farthest));
+      points_that(count, "point lies", "points lie"), length_text(result, farthest));
 }
 
 /// Points that are not judged, and why.
@@ -281,7 +212,7 @@ std::string radius_line(const Result& result) {
     name = fmt::format("the axis through ({:g}, {:g}, {:g}) along ({:g}, {:g}, {:g})", point[0], point[1], point[2],
                        d[0], d[1], d[2]);
   }
-  return fmt::format("Radii: from {}, R {}; --axis names another\n", name, length(result, result.tip_radius));
+  return fmt::format("Radii: from {}, R {}; --axis names another\n", name, length_text(result, result.tip_radius));
 }
 
 }  // namespace
@@ -291,7 +222,7 @@ std::string operator_summary(const Result& result) {
   std::string text = verdict_lines(result);
   for (const std::string& note : result.notes) text += note + "\n";
   text += fit_lines(result);
-  if (decided) text += optimum_line(result);
+  if (decided) text += optimum_lines(result);
   text += fit_remarks(result) + point_lines(result) + radius_line(result);
   return decided ? text + tolerance_lines(result) : text;
 }

@@ -1,8 +1,11 @@
 #include "tools/results/zone_counts.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "config/zone_settings.hpp"
+#include "core/fit/fit_mode.hpp"
 
 namespace bladefit {
 namespace {
@@ -27,6 +30,14 @@ void count_point(const ResultPoint& point, ZoneCounts& counts) {
   }
 }
 
+double tightest_zone(const Result& result, Region region) {
+  double tightest = std::numeric_limits<double>::infinity();
+  for (const ResultZone& zone : zones_and_rest(result)) {
+    if (zone.region == region) tightest = std::min({tightest, zone.plus, zone.minus});
+  }
+  return tightest;
+}
+
 }  // namespace
 
 std::vector<ZoneCounts> zone_counts(const Result& result) {
@@ -48,6 +59,19 @@ std::vector<ResultZone> zones_and_rest(const Result& result) {
   zones.push_back(
       {std::string(kRestName), "outside of all zones", Region::rest, result.rest_outside, result.rest_outside});
   return zones;
+}
+
+ZoneShare zone_share(const Result& result) {
+  ZoneShare share;
+  const bool by_zone = result.mode == word_of(FitMode::min_tolerance) || result.mode == word_of(FitMode::constrained);
+  if (result.zones.empty() || !by_zone || !(result.tolerance_factor > 0.0)) return share;
+  share.tightest = tightest_zone(result, share.region);
+  if (!std::isfinite(share.tightest)) {
+    share.region = Region::rest;
+    share.tightest = tightest_zone(result, share.region);
+  }
+  if (std::isfinite(share.tightest)) share.factor = result.tolerance_factor / share.tightest;
+  return share;
 }
 
 }  // namespace bladefit

@@ -28,4 +28,13 @@ struct ZoneCounts {
 /// The zones of a result, and last the rest of the blade with its tolerance on both sides; empty where there are none.
 [[nodiscard]] std::vector<ResultZone> zones_and_rest(const Result& result);
 
+/// By what the tolerances of zones and rest can be multiplied so that some pose just meets them, as the modes
+/// min_tolerance and constrained find it. What is allowed on either side of a zone is multiplied alike.
+struct ZoneShare {
+  double factor = 0;                     ///< 0: not sought, or there are no zones
+  double tightest = 0;                   ///< the tolerance [mm] that Result::tolerance_factor is a multiple of: the
+  Region region = Region::leading_edge;  ///< smallest of this region, on either side
+};
+[[nodiscard]] ZoneShare zone_share(const Result& result);
+
 }  // namespace bladefit

@@ -9,6 +9,7 @@
 #include "core/geometry/surface/trim.hpp"
 #include "tools/show/base64.hpp"
 #include "tools/show/face_mesh.hpp"
+#include "tools/web/edge_limits.hpp"
 #include "tools/web/json_text.hpp"
 
 namespace bladefit {
@@ -51,6 +52,12 @@ std::string grid_json(const Surface& surface, const FaceMesh& mesh) {
                      mesh.vs.size(), base64_of(places), base64_of(normals), base64_of(inside_of(surface, mesh)));
 }
 
+std::string limits_json(const EdgeLimits& limits, double tip_radius_mm) {
+  return fmt::format(R"({{"from":{},"to":{},"plus":{},"minus":{}}})", json_number(limits.low_mm / tip_radius_mm),
+                     json_number(limits.high_mm / tip_radius_mm), json_number(limits.limits.plus()),
+                     json_number(limits.limits.minus()));
+}
+
 }  // namespace
 
 std::string design_json(const Surface& surface, const ToleranceMap& tolerance, const ShaftAxis& axis,
@@ -63,10 +70,13 @@ std::string design_json(const Surface& surface, const ToleranceMap& tolerance, c
     const FaceMesh& face = faces.at(box.patch);
     zones.push_back(mesh_inside(surface, face, box));
   }
+  const auto piece = [tip_radius_mm](const EdgeLimits& limits) { return limits_json(limits, tip_radius_mm); };
   return fmt::format(
-      R"({{"name":{},"middle":{},"half_diagonal":{},"axis":{{"point":{},"direction":{}}},"tip":{},"faces":{},"zones":{}}})",
+      R"({{"name":{},"middle":{},"half_diagonal":{},"axis":{{"point":{},"direction":{}}},"tip":{},"faces":{},"zones":{},)"
+      R"("edge_limits":{}}})",
       json_text(name), triple(surface.middle()), json_number(surface.half_diagonal()), triple(axis.point),
-      triple(axis.direction), json_number(tip_radius_mm), json_list(faces, grid), json_list(zones, grid));
+      triple(axis.direction), json_number(tip_radius_mm), json_list(faces, grid), json_list(zones, grid),
+      json_list(edge_limits(tolerance, zones), piece));
 }
 
 }  // namespace bladefit

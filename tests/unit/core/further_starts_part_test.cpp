@@ -26,11 +26,11 @@ struct Sought {
   Sought()
       : parts(reference_design("dtmb4119").image(), started_config()),
         rows(BoundRows::doubles_for(60)),
-        places(KeptSheets::kPlacesPerPoint * 60),
+        places(60),
         program(parts->problem, parts->plan),
         starts(parts->problem, parts->plan, parts->finder, parts->selection) {
     program.attach(rows.data(), 60);
-    sheets.attach(places.data(), 60);
+    sheets.attach(places.data());
     parts.store(thinned(read_case("dtmb4119"), 0, 45));
     parts.fit();
     parts->selection.hold(parts->store);
@@ -49,7 +49,7 @@ struct Sought {
 
   OwnedParts parts;
   std::vector<double> rows;
-  std::vector<SurfacePlace> places;
+  std::vector<KeptPlaces> places;
   KeptSheets sheets;
   ModeProgram program;
   FurtherStarts starts;

@@ -79,6 +79,9 @@ RC_GTEST_PROP(MinimaxProgram, WeightedMinimaxIsTheBestVertex, ()) {
   Constraints c;
   c.variables = width + 1;
   c.rows = rows.view(width, width);
+  std::vector<double> below;  // another weight on the lower side
+  for (std::size_t i = 0; i < rows.weight.size(); ++i) below.push_back(drawn(random, 0.3, 10));
+  if (random() % 2 == 0) c.rows.lower_weight = below.data();
   const Vec8 g = Vec8::Unit(width);
   const ActiveSetResult result = minimize_linear(g, c);
   assert_linear_minimum(c, g, result);

@@ -33,7 +33,12 @@ struct Planned {
     out.ratio = ratio;
     return out;
   }
-  [[nodiscard]] double weight(double u) const { return plan.weight(foot_at(u, 0.0)); }
+  /// Where it is the same on both sides.
+  [[nodiscard]] double weight(double u) const {
+    const Limits weight = plan.weight(foot_at(u, 0.0));
+    EXPECT_EQ(weight.plus(), weight.minus());
+    return weight.plus();
+  }
 
   FitProblem problem;
   ModePlan plan;
@@ -97,6 +102,36 @@ TEST(ModePlan, WeighsOtherModesByOneAndTheRatioWhateverTheTolerances) {
     EXPECT_EQ(plan.weight(0.5), 1.0);
     EXPECT_EQ(plan.weight(0.1), 7.0);
     EXPECT_EQ(plan.plan.unit(), 1.0);
+  }
+}
+
+ToleranceMap lopsided_zone() {
+  ToleranceMap map = tolerances(kInfinite, 0.3);
+  map.boxes[0].zone = 1;
+  map.zones[0] = {Region::leading_edge, false, 0.0, kInfinite, 0.1, 0.04};
+  map.zone_count = 1;
+  return map;
+}
+
+TEST(ModePlan, WeighsByTheLimitsOfZonesWhateverTheRatio) {
+  for (const FitMode mode : {min_tolerance, constrained}) {
+    const Planned plan(mode, lopsided_zone(), 7.0);
+    EXPECT_EQ(plan.plan.weight(foot_at(0.5, 0.0)).plus(), 0.1);
+    EXPECT_EQ(plan.plan.weight(foot_at(0.5, 0.0)).minus(), 0.04);
+    EXPECT_EQ(plan.weight(0.1), 0.3);
+    EXPECT_EQ(plan.plan.unit(), 0.04);
+  }
+  ToleranceMap band = lopsided_zone();
+  band.zones[0].region = Region::rest;
+  EXPECT_EQ(Planned(constrained, band).plan.unit(), 0.04) << "the tightest of the rest where no edge has one";
+}
+
+TEST(ModePlan, OtherModesCountPointsInZonesThatJudgeNothing) {
+  ToleranceMap map = lopsided_zone();
+  map.zones[0].plus_mm = map.zones[0].minus_mm = map.rest_mm = kInfinite;
+  for (const FitMode mode : {minimax, range}) {
+    EXPECT_GT(Planned(mode, map).weight(0.5), 0.0);
+    EXPECT_GT(Planned(mode, map).weight(0.1), 0.0);
   }
 }
 

@@ -28,7 +28,9 @@ LocalizerConfig program_config(FitMode mode, RegionPolicy regions, double leadin
 struct Programmed {
   explicit Programmed(FitMode mode = FitMode::min_tolerance, RegionPolicy regions = RegionPolicy::follow,
                       double leading_edge = 0.1)
-      : parts(reference_design("dtmb4119").image(), program_config(mode, regions, leading_edge)),
+      : Programmed(program_config(mode, regions, leading_edge)) {}
+  explicit Programmed(const LocalizerConfig& config)
+      : parts(reference_design("dtmb4119").image(), config),
         rows(BoundRows::doubles_for(4)),
         program(parts->problem, parts->plan) {
     program.attach(rows.data(), 4);
@@ -113,6 +115,32 @@ TEST(ModeProgram, OnlyTightensAfterAFewRounds) {
   EXPECT_EQ(p.parts->store[0].region, Region::leading_edge);
   p.program.restart();
   EXPECT_EQ(p.follow(), Regions::changed) << "another refinement is free again";
+}
+
+/// Between two zones of which each is the tighter one on one side, that is the limit of either.
+TEST(ModeProgram, KeepsTheTighterLimitOnEitherSide) {
+  LocalizerConfig config = program_config(FitMode::min_tolerance, RegionPolicy::follow, 0.1);
+  ToleranceMap& map = config.tolerance;
+  map.boxes[0].zone = 1;
+  map.zones[0] = {Region::leading_edge, false, 0.0, std::numeric_limits<double>::infinity(), 0.1, 0.4};
+  map.zones[1] = {Region::rest, true, 0.0, std::numeric_limits<double>::infinity(), 0.4, 0.1};
+  map.zone_count = 2;
+  map.transition = 0;
+  Programmed p(config);
+  EXPECT_DOUBLE_EQ(p.value(0.2, 0.0), 2.0);
+  EXPECT_DOUBLE_EQ(p.value(-0.2, 0.0), 0.5);
+  bool over = false;
+  for (std::uint32_t k = 0; k <= tuning::kFreeRegionRounds; ++k) {
+    over = !over;
+    p.put(over ? kOutOfTheBox : kInTheBox, kOutOfTheBox);
+    EXPECT_EQ(p.follow(), Regions::changed) << k;
+  }
+  for (const double u : {kInTheBox, kOutOfTheBox}) {
+    p.put(u, kOutOfTheBox);
+    EXPECT_EQ(p.follow(), Regions::at_rest);
+    EXPECT_DOUBLE_EQ(p.value(0.2, 0.0), 2.0);
+    EXPECT_DOUBLE_EQ(p.value(-0.2, 0.0), 2.0);
+  }
 }
 
 TEST(ModeProgram, GivesUpRegionsThatNeverRest) {

@@ -44,7 +44,7 @@ class OwnedParts {
         order_(config.capacity),
         ring_(config.capacity),
         rows_(BoundRows::doubles_for(config.capacity)),
-        places_(KeptSheets::kPlacesPerPoint * config.capacity),
+        places_(config.capacity),
         parts_(design, config) {
     parts_.store.attach(points_.data(), order_.data(), config.capacity);
     parts_.verdicts.attach(ring_.data(), config.capacity);
@@ -99,7 +99,7 @@ class OwnedParts {
   std::vector<StoredPoint> points_;
   std::vector<std::uint32_t> order_, ring_;
   std::vector<double> rows_;
-  std::vector<SurfacePlace> places_;
+  std::vector<KeptPlaces> places_;
   LocalizerParts parts_;
 };
 

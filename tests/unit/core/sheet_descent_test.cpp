@@ -26,11 +26,11 @@ struct Descending {
   Descending()
       : parts(reference_design("dtmb4119").image(), descending_config()),
         rows(BoundRows::doubles_for(kDescending)),
-        places(KeptSheets::kPlacesPerPoint * kDescending),
+        places(kDescending),
         program(parts->problem, parts->plan),
         descent(parts->problem) {
     program.attach(rows.data(), kDescending);
-    descent.attach(places.data(), kDescending);
+    descent.attach(places.data());
     parts.store(thinned(read_case("dtmb4119"), 0, 45));
     parts.fit();
     parts->selection.hold(parts->store);
@@ -69,7 +69,7 @@ struct Descending {
 
   OwnedParts parts;
   std::vector<double> rows;
-  std::vector<SurfacePlace> places;
+  std::vector<KeptPlaces> places;
   ModeProgram program;
   SheetDescent descent;
   Pose pose;

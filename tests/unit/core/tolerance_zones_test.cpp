@@ -185,8 +185,13 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedZones{"tolerance.boxes.zone", [](LocalizerConfig& c) { c.tolerance.boxes[1].zone = 40; }},
         RefusedZones{"tolerance.transition", [](LocalizerConfig& c) { c.tolerance.transition = 0.1; }},
         RefusedZones{"tolerance.axis.direction", [](LocalizerConfig& c) { c.tolerance.axis.direction *= 2; }},
-        RefusedZones{"mode", [](LocalizerConfig& c) { c.mode = FitMode::min_tolerance; }},
-        RefusedZones{"mode", [](LocalizerConfig& c) { c.mode = FitMode::constrained; }}));
+        RefusedZones{"tolerance.rest_mm",
+                     [](LocalizerConfig& c) { c.mode = FitMode::min_tolerance, c.tolerance.rest_mm = kNone; }},
+        RefusedZones{"tolerance.rest_mm",
+                     [](LocalizerConfig& c) { c.mode = FitMode::constrained, c.tolerance.rest_mm = kNone; }},
+        RefusedZones{"tolerance.zones.plus_mm", [](LocalizerConfig& c) {
+                       c.mode = FitMode::min_tolerance, c.tolerance.zones[1].plus_mm = kNone;
+                     }}));
 
 }  // namespace
 }  // namespace bladefit::testing

@@ -3,6 +3,7 @@
 #define BLADEFIT_TESTS_UNIT_BRIDGE_C_ABI_H
 
 #include "firmware_bridge/bladefit.h"
+#include "firmware_bridge/bladefit_zones.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,6 +14,12 @@ extern "C" {
 bladefit_status c_session(void* memory, size_t memory_size, const void* design, size_t design_size,
                           const double* points, uint32_t count, bladefit_fit_report* report, uint32_t* verdicts,
                           uint32_t* revisions);
+
+/* The same with zones of their own tolerances in the mode `mode`; *zones[k]: how many verdicts were of zone k, 0 for
+ * the rest. */
+bladefit_status c_zoned_session(void* memory, size_t memory_size, const void* design, size_t design_size,
+                                const double* points, uint32_t count, uint32_t mode, bladefit_fit_report* report,
+                                uint32_t zones[3]);
 
 /* The default configuration as C sees it. */
 bladefit_config c_defaults(void);

@@ -77,6 +77,8 @@ class MeasuredFit {
     measure("fit", [&] { (void)bladefit_fit(handle_, &report); });
     measure("verdict_of", [&] { (void)bladefit_verdict_of(handle_, 7, &verdict); });
     measure("reset", [&] { (void)bladefit_reset(handle_); });
+    const bladefit_zone zone = {sizeof zone, BLADEFIT_REST, nullptr, 0, 0, 0.0, INFINITY, 0.1, 0.2};
+    measure("set_zones", [&] { EXPECT_EQ(bladefit_set_zones(handle_, &zone, 1, nullptr), BLADEFIT_OK); });
     measure("status_text", [&] { (void)bladefit_status_text(BLADEFIT_BAD_CRC); });
   }
 

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "config/zone_table.hpp"
@@ -101,8 +104,10 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedTables{"[fit]\nleading_edge = [\"u:0.4:0.6\"]\ntolerance = 0.1\n" + zone_toml("tip", "r/R 0.7:1"),
                       "[[zone]] tables and --leading-edge, --tolerance: the zones say where"},
         RefusedTables{"[fit]\nmode = \"constrained\"\n" + zone_toml("tip", "r/R 0.7:1"),
-                      "--mode constrained: its bounds are one tolerance"},
-        RefusedTables{"[fit]\nmode = \"min_tolerance\"\n" + zone_toml("tip", "r/R 0.7:1"), "--mode min_tolerance: its"},
+                      "--mode constrained: nothing is allowed outside of the zones, where points count in the fit too; "
+                      "add --rest-tolerance"},
+        RefusedTables{"[fit]\nmode = \"min_tolerance\"\n" + zone_toml("tip", "r/R 0.7:1"),
+                      "--mode min_tolerance: nothing is allowed outside of the zones"},
         RefusedTables{zone_toml("hub", "r/R 0:0.1"), "zone[1] \"hub\".where: no point can fall in 'r/R 0:0.1'"},
         RefusedTables{zone_toml("beyond", "r/R 1.1:1.2"), "zone[1] \"beyond\".where: no point can fall"},
         RefusedTables{zone_toml("all", "r/R 0:1.2") + zone_toml("tip", "u:0.4:0.6 r/R 0.7:1"),
@@ -177,6 +182,56 @@ TEST(ZonedFit, EveryFormatNamesTheZones) {
   EXPECT_NE(qif.find("<UnequallyDisposedZone>0.025"), std::string::npos);
   EXPECT_NE(operator_summary(result).find("Zone tip, edge (u:0.4:0.6 r/R 0.7:1.0): +0.100 -0.050 mm; "),
             std::string::npos);
+}
+
+/// All limits of kTwoZones, times `scale`, in a mode whose bounds they are.
+Result bounded_result(const std::string& mode, double scale) {
+  FitPlan plan = planned(std::string("[fit]\nmode = \"") + mode + "\"\n" + std::string(kTwoZones).substr(6));
+  plan.points = zoned_blade().plan.points;
+  ToleranceMap& map = plan.localizer.tolerance;
+  map.rest_mm *= scale;
+  for (ToleranceZone& zone : map.zones) {
+    zone.plus_mm *= scale;
+    zone.minus_mm *= scale;
+  }
+  return fit_points(zoned_blade().design, plan, read_subset_points(zoned_blade(), "full"), "full.csv").result;
+}
+
+TEST(ZonedFit, TellsTheFactorThatCanJustBeMet) {
+  const Result result = bounded_result("min_tolerance", 1.0);
+  const ZoneShare share = zone_share(result);
+  EXPECT_EQ(share.tightest, 0.05);
+  EXPECT_EQ(share.region, Region::leading_edge);
+  double largest = 0.0;
+  for (const ResultPoint& point : result.points) {
+    if (point.state != PointState::rejected) largest = std::max(largest, std::abs(point.distance) / point.tolerance);
+  }
+  EXPECT_NEAR(share.factor, largest, 1e-8);
+  EXPECT_EQ(result.leading_edge.tolerance, result.tolerance_factor);
+  const std::string words = operator_summary(result);
+  const std::string told = fmt::format("the tolerances of the zones and the rest times {:.4f}", share.factor);
+  EXPECT_NE(words.find("Smallest tolerances that can be met: " + told), std::string::npos) << words;
+  EXPECT_NE(words.find("Proof: points "), std::string::npos);
+  const std::string html = format_of("html").text_of(result);
+  EXPECT_NE(html.find(fmt::format("once all are multiplied by {:.4f}", share.factor)), std::string::npos);
+  EXPECT_EQ(result.verdict.state == BladeState::in_tolerance, share.factor <= 1.0);
+}
+
+TEST(ZonedFit, IsInToleranceWhereAConstrainedFitMeetsThem) {
+  const double least = zone_share(bounded_result("min_tolerance", 1.0)).factor;
+  const Result wide = bounded_result("constrained", 1.01 * least), tight = bounded_result("constrained", 0.99 * least);
+  EXPECT_EQ(wide.verdict.state, BladeState::in_tolerance);
+  EXPECT_EQ(zone_share(wide).factor, 0.0);
+  EXPECT_EQ(tight.verdict.state, BladeState::out_of_tolerance);
+  EXPECT_EQ(tight.status, "infeasible");
+  EXPECT_NEAR(zone_share(tight).factor, 1.0 / 0.99, 1e-6);
+  const std::string words = operator_summary(tight);
+  EXPECT_NE(words.find("cannot be brought within the tolerances of their zones together; the least feasible are the "
+                       "tolerances of the zones and the rest times 1.0101 (the tightest of the leading edge: "),
+            std::string::npos)
+      << words;
+  Result read = parse_result("result.json", result_json(tight));
+  EXPECT_NEAR(zone_share(read).factor, 1.0 / 0.99, 1e-6) << "from the file as well";
 }
 
 TEST(ZonedFit, AZoneWithoutAPointIsNamed) {

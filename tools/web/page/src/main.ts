@@ -114,6 +114,7 @@ class Page {
   // --- drawing ---
   private showDesign(design: Design): void {
     this.design = design;
+    this.strip.limits = design.edge_limits;
     this.scene?.scene.remove(this.mesh);
     this.mesh = meshOf(design);
     this.scene?.scene.add(this.mesh);

@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { kCellLooks, kColours, kLooks, lookOf, type Look } from "./looks";
 import type { Store } from "./store";
-import type { State } from "./types";
+import type { EdgeLimits, State } from "./types";
 
 const kHeight = 190, kCellHeight = 9, kReach_px = 14;
 const kMostTolerances = 6; // beyond it points stand at the border
@@ -30,6 +30,7 @@ function shapeInto(path: CanvasRenderingContext2D, look: Look, x: number, y: num
 
 export class Strip {
   onPick: (slot: number) => void = () => {};
+  limits: EdgeLimits[] = []; // by zone; empty: the same all along
   private readonly chart: uPlot;
   private state: State | null = null;
   private selected = -1;
@@ -64,29 +65,43 @@ export class Strip {
     this.selected = selected;
     if (state && state.blade.tip > 0 && state.blade.edge_tip > state.blade.edge_root)
       this.edges = [state.blade.edge_root / state.blade.tip - 0.01, Math.max(state.blade.edge_tip / state.blade.tip, 1) + 0.01];
-    const tolerance = state?.tolerance.edge ?? 0;
+    const tolerance = Math.max(0, ...this.bands().flatMap((band) => [band.plus ?? 0, band.minus ?? 0]));
     let most = 1.6 * tolerance;
     for (const slot of this.store.edge()) most = Math.max(most, 1.25 * Math.abs(this.store.distance[slot]));
     this.reach = tolerance > 0 ? Math.min(most, kMostTolerances * tolerance) : most || 1;
     this.chart.redraw(true, true);
   }
 
+  private bands(): EdgeLimits[] {
+    const tolerance = this.state?.tolerance.edge ?? 0, [from, to] = this.edges;
+    return this.limits.length > 0 ? this.limits : tolerance > 0 ? [{ from, to, plus: tolerance, minus: tolerance }] : [];
+  }
+
+  // Where a band stands on the canvas: its sides, then its limits; a side that is not judged is open.
+  private boxOf(chart: uPlot, band: EdgeLimits): [number, number, number, number] {
+    const x = (ratio: number): number => chart.valToPos(Math.min(Math.max(ratio, this.edges[0]), this.edges[1]), "x", true);
+    const y = (distance: number): number => chart.valToPos(distance, "y", true), far = 2 * this.reach;
+    return [x(band.from), x(band.to), y(band.plus ?? far), y(-(band.minus ?? far))];
+  }
+
   private drawBand(chart: uPlot): void {
-    const tolerance = this.state?.tolerance.edge ?? 0;
-    const { left, top, width, height } = chart.bbox, to = (value: number): number => chart.valToPos(value, "y", true);
+    const { left, top, width, height } = chart.bbox;
     chart.ctx.save();
+    chart.ctx.beginPath();
+    chart.ctx.rect(left, top, width, height);
+    chart.ctx.clip();
     chart.ctx.fillStyle = "#f3f5f7";
     chart.ctx.fillRect(left, top, width, height);
-    if (tolerance > 0) {
-      chart.ctx.fillStyle = "#d6ebe3";
-      chart.ctx.fillRect(left, to(tolerance), width, to(-tolerance) - to(tolerance));
+    chart.ctx.fillStyle = "#d6ebe3";
+    for (const band of this.bands()) {
+      const [from, to, above, below] = this.boxOf(chart, band);
+      chart.ctx.fillRect(from, above, to - from, below - above);
     }
     chart.ctx.restore();
   }
 
   private drawPoints(chart: uPlot): void {
     const { ctx, bbox } = chart, scale = devicePixelRatio;
-    const tolerance = this.state?.tolerance.edge ?? 0;
     ctx.save();
     ctx.beginPath();
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
@@ -94,9 +109,9 @@ export class Strip {
     ctx.strokeStyle = kColours.ink;
     ctx.lineWidth = scale;
     ctx.setLineDash([5 * scale, 4 * scale]);
-    for (const limit of tolerance > 0 ? [-tolerance, tolerance] : []) {
-      const y = chart.valToPos(limit, "y", true);
-      ctx.stroke(new Path2D(`M${bbox.left} ${y}H${bbox.left + bbox.width}`));
+    for (const band of this.bands()) {
+      const [from, to, above, below] = this.boxOf(chart, band);
+      for (const y of [above, below]) ctx.stroke(new Path2D(`M${from} ${y}H${to}`));
     }
     ctx.setLineDash([]);
     this.drawCells(chart, scale);

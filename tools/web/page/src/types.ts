@@ -26,7 +26,11 @@ export type Triple = [number, number, number];
 
 export interface Design {
   name: string; middle: Triple; half_diagonal: number; axis: { point: Triple; direction: Triple }; tip: number; faces: Grid[]; zones: Grid[];
+  edge_limits: EdgeLimits[];
 }
+
+// What is allowed at the leading edge between two r/R [mm]; null: not judged on that side.
+export interface EdgeLimits { from: number; to: number; plus: number | null; minus: number | null }
 
 export interface Piece { afresh: boolean; more: boolean; rows: number[] }
 
