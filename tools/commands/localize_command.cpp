@@ -118,6 +118,19 @@ void write_report(const LocalizeFlags& flags, const FitPlan& plan, const DesignI
   write_output(flags.report, format_of_file(flags.report).text_of(result));
 }
 
+/// What there is to know beside the summary, which comes first: its first line is the verdict.
+void tell_besides(const LocalizeFlags& flags, const LoadedDesign& design, const FitPlan& plan, const BatchFit& batch,
+                  std::FILE* words) {
+  tell_notes(design, words);
+  fmt::print(words, "{}", plan.note);
+  if (!flags.starts.empty()) {
+    fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", batch.wrong_starts,
+               batch.result.points.size(), batch.wrong_starts > 0 ? "; fitted again from searched ones" : "");
+  }
+  for (const std::string& file : {flags.json, flags.report})
+    if (!file.empty() && file != "-") fmt::print(words, "Written: {}\n", file);
+}
+
 int localize(const LocalizeFlags& flags) {
   FitSettings from_file;
   if (!flags.config.empty()) {
@@ -128,7 +141,7 @@ int localize(const LocalizeFlags& flags) {
   const std::string begun = utc_now();
   const bool json_on_stdout = flags.json == "-";
   std::FILE* words = json_on_stdout ? stderr : stdout;
-  StepClock clock(flags.volume, words);
+  StepClock clock(flags.volume);
   const LoadedDesign loaded = load_design(flags.design, design_choice_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
@@ -138,22 +151,13 @@ int localize(const LocalizeFlags& flags) {
   if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
   const std::vector<ProbePoint> points = read_points(flags, plan);
   clock.done("points read");
-  if (!flags.volume.quiet) {
-    tell_notes(loaded, words);
-    fmt::print(words, "{}", plan.note);
-  }
   BatchFit batch = fit_points(design, plan, points, file_name(flags.points));
   clock.done("points fitted and judged");
   Result& result = batch.result;
-  if (!flags.starts.empty() && !flags.volume.quiet) {
-    fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", batch.wrong_starts, points.size(),
-               batch.wrong_starts > 0 ? "; fitted again from searched ones" : "");
-  }
   if (!flags.json.empty()) write_output(flags.json, result_json(result));
   if (!flags.report.empty()) write_report(flags, plan, design, begun, result);
   fmt::print(words, "{}", told_of(operator_summary(result), flags.volume));
-  if (!flags.json.empty() && !json_on_stdout && !flags.volume.quiet) fmt::print(words, "Written: {}\n", flags.json);
-  if (!flags.report.empty() && !flags.volume.quiet) fmt::print(words, "Written: {}\n", flags.report);
+  if (!flags.volume.quiet) tell_besides(flags, loaded, plan, batch, words);
   return exit_code_of(result);
 }
 

@@ -64,6 +64,22 @@ TEST(CommandWords, VersionNamesCommitProcessorAndCadLibrary) {
   }
 }
 
+TEST(CommandWords, LocalizeTellsItsVerdictFirst) {
+  const std::string data = BLADEFIT_TEST_DATA "/dtmb4119/";
+  const std::vector<std::string> asked = {"localize", "--design",          data + "design.igs",
+                                          "--points", data + "points.csv", "--tolerance",
+                                          "0.1mm",    "--starts",          "curves"};
+  const Said whole = say(asked);
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_EQ(whole.out.rfind("Verdict: in_tolerance\n", 0), 0U) << whole.out;
+  for (const char* note : {"\noutward side: +", "\nno --leading-edge is given", "\nstarts: "})
+    EXPECT_TRUE(holds(whole.out, note)) << whole.out;
+  EXPECT_EQ(say(hil::operator+(asked, {"--quiet"})).out, "Verdict: in_tolerance\n");
+  const Said timed = say(hil::operator+(asked, {"--verbose"}));
+  EXPECT_EQ(timed.out, whole.out);
+  EXPECT_TRUE(holds(timed.err, "points fitted and judged: ")) << timed.err;
+}
+
 TEST(CommandWords, ShellsCompleteWhatTheOptionsAre) {
   const Said bash = say({"completion", "bash"});
   ASSERT_EQ(bash.exit_code, 0) << bash.err;
