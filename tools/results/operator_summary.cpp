@@ -142,10 +142,10 @@ std::string infeasible_lines(const Result& result) {
                         length(result, least - wanted)));
 }
 
-/// What the mode found, in words; empty in least squares.
+/// What the mode found, in words; empty in least squares, and where the files do not tell all of it.
 std::string optimum_line(const Result& result) {
   const double factor = result.tolerance_factor;
-  if (factor <= 0.0) return "";
+  if (factor <= 0.0 || !result.details) return "";
   const std::string held =
       result.details->held_feet == 0
           ? std::string()
@@ -171,15 +171,21 @@ std::string optimum_line(const Result& result) {
   return "";
 }
 
+/// ", 6 of 6 degrees of freedom determined"; empty where that is not known.
+std::string determined(const Result& result) {
+  if (!result.details) return "";
+  return fmt::format(", {} of {} degrees of freedom determined", result.details->determined, result.details->free);
+}
+
 std::string fit_lines(const Result& result) {
   const EulerAngles e = euler_angles(result.pose.rotation);
   const Vec3 t = result.pose.translation / result.mm_per_unit;
   return fmt::format(
-      "Fit {}: {} of {} points, {} of {} degrees of freedom determined, rms {:.4f} {} (before {:.4f} {})\n"
+      "Fit {}: {} of {} points{}, rms {:.4f} {} (before {:.4f} {})\n"
       "Pose: tx {:.5f} ty {:.5f} tz {:.5f} {}; psi {:.7f} theta {:.7f} phi {:.7f} rad\n",
-      result.status, result.all.count, result.points.size(), result.details->determined, result.details->free,
-      result.in_units(result.all.rms_after), result.units, result.in_units(result.all.rms_before), result.units, t[0],
-      t[1], t[2], result.units, e.psi, e.theta, e.phi);
+      result.status, result.all.count, result.points.size(), determined(result), result.in_units(result.all.rms_after),
+      result.units, result.in_units(result.all.rms_before), result.units, t[0], t[1], t[2], result.units, e.psi,
+      e.theta, e.phi);
 }
 
 /// The word on the blade, then every reason.
@@ -252,7 +258,9 @@ std::string point_lines(const Result& result) {
 }
 
 std::string tolerance_lines(const Result& result) {
-  const double edge = result.details->leading_edge_tolerance, rest = result.details->rest_tolerance;
+  const auto& details = result.details;
+  const double edge = details ? details->leading_edge_tolerance : result.leading_edge.tolerance;
+  const double rest = details ? details->rest_tolerance : result.rest.tolerance;
   const bool zoned = !result.zones.empty(), edge_judged = !result.boxes.empty() && std::isfinite(edge);
   const auto allowed = [&](double mm) {
     return std::isfinite(mm) ? fmt::format("{:.3f} {}", result.in_units(mm), result.units) : std::string("none");
