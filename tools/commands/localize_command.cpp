@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "drivers/replay/points_csv.hpp"
@@ -15,6 +16,7 @@
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/design_notes.hpp"
 #include "tools/commands/fit_flags.hpp"
+#include "tools/commands/progress_line.hpp"
 #include "tools/commands/report_record_of.hpp"
 #include "tools/commands/volume_flags.hpp"
 #include "tools/drawing/add_drawing.hpp"
@@ -142,6 +144,8 @@ int localize(const LocalizeFlags& flags) {
   const bool json_on_stdout = flags.json == "-";
   std::FILE* words = json_on_stdout ? stderr : stdout;
   StepClock clock(flags.volume);
+  std::optional<ProgressLine> progress(!flags.volume.quiet);
+  progress->begin("reading the design");
   const LoadedDesign loaded = load_design(flags.design, design_choice_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
@@ -151,11 +155,15 @@ int localize(const LocalizeFlags& flags) {
   if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
   const std::vector<ProbePoint> points = read_points(flags, plan);
   clock.done("points read");
+  progress->begin(fmt::format("fitting {} points", points.size()));
   BatchFit batch = fit_points(design, plan, points, file_name(flags.points));
   clock.done("points fitted and judged");
   Result& result = batch.result;
+  if (json_on_stdout) progress.reset();
+  if (progress) progress->begin("writing");
   if (!flags.json.empty()) write_output(flags.json, result_json(result));
   if (!flags.report.empty()) write_report(flags, plan, design, begun, result);
+  progress.reset();
   fmt::print(words, "{}", told_of(operator_summary(result), flags.volume));
   if (!flags.volume.quiet) tell_besides(flags, loaded, plan, batch, words);
   return exit_code_of(result);
@@ -171,7 +179,9 @@ void add_localize_command(CLI::App& app, int& exit_code) {
       "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1mm\n"
       "  bladefit localize --design blade.bfd --points - --mode min_tolerance --leading-edge auto:5mm --json - "
       "< points.csv");
-  command->add_option("--design", flags->design, "design: .igs .iges .stp .step, or .bfd from `bladefit compile`")
+  command
+      ->add_option("--design", flags->design,
+                   "design: .igs .iges .stp .step, or .bfd from `bladefit compile`; - reads standard input")
       ->required();
   command
       ->add_option("--points", flags->points,

@@ -45,7 +45,7 @@ constexpr const char* kPrintStyle = R"(
 @media print { body { margin: 0; padding: 0; max-width: none; font-size: 9.6pt; print-color-adjust: exact;
   -webkit-print-color-adjust: exact; }
   table { font-size: 8.3pt; } .points { font-size: 7.4pt; } .chords { font-size: 6.4pt; } .note, .session { font-size: 8pt; }
-  .sum { font-size: 6.8pt; } svg, tr, .headline, .keep, table.identity, table.defects, table.regions { break-inside: avoid; } h2, h3 { break-after: avoid; }
+  .sum { font-size: 6.8pt; } svg, tr, .headline, .keep, table.identity, table.defects, table.regions, table.files { break-inside: avoid; } h2, h3 { break-after: avoid; }
   thead { display: table-header-group; } .page { break-before: page; } }
 )";
 
