@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tools/results/left_out_lines.hpp"
 #include "tools/results/words.hpp"
 #include "tools/results/zone_lines.hpp"
 
@@ -27,9 +28,13 @@ std::string length(const Result& result, double mm) {
   return fmt::format("{:.6g} {}", result.in_units(mm), result.units);
 }
 
+/// How far a point is off and at which radius, where the foot is known.
 std::string where(const Result& result, const ResultPoint& point) {
-  return fmt::format("{:+.3f} {} (unfitted {:+.3f}) at r/R {:.2f}", result.in_units(point.distance), result.units,
-                     result.in_units(point.before), result.axis.radius_of(point.foot.value()) / result.tip_radius);
+  std::string text = fmt::format("{:+.3f} {} (unfitted {:+.3f})", result.in_units(point.distance), result.units,
+                                 result.in_units(point.before));
+  if (point.foot && result.tip_radius > 0.0)
+    text += fmt::format(" at r/R {:.2f}", result.axis.radius_of(*point.foot) / result.tip_radius);
+  return text;
 }
 
 std::string_view what_to_do(const ResultPoint& point) {
@@ -201,49 +206,6 @@ std::string decision_line(const Result& result) {
   const ResultVerdict& verdict = result.verdict;
   if (verdict.decision == DecisionRule::simple) return "";
   return fmt::format("Decision: guarded (ISO 14253-1), in or out only beyond U = {:g} u\n", verdict.coverage_factor);
-}
-
-/// "1 point is", "3 points are": with the verb for one and for several.
-std::string points_that(std::size_t count, const char* one, const char* several) {
-  return fmt::format("{} {}", count, count == 1 ? one : several);
-}
-
-/// Points that are out, but where the design has no surface.
-std::string beyond_line(const Result& result) {
-  std::size_t count = 0;
-  double farthest = 0.0;
-  for (const ResultPoint& point : result.points) {
-    if (point.state != PointState::out || point.action != Action::none) continue;
-    ++count;
-    farthest = std::max(farthest, point.beyond);
-  }
-  if (count == 0) return "";
-  return fmt::format(
-      "{} up to {} beyond the edge of the design, where there is no surface to cut or weld to: check whether the blade "
-      "is longer there, or was probed past the end of the design; then leave them out with --subset or --window\n",
-      points_that(count, "point lies", "points lie"), length(result, farthest));
-}
-
-/// Points that are not judged, and why.
-std::string left_out_lines(const Result& result) {
-  const auto left_out = [&result](LeftOut reason) {
-    return static_cast<std::size_t>(
-        std::count_if(result.points.begin(), result.points.end(), [reason](const ResultPoint& point) {
-          return point.state == PointState::rejected && point.left_out == reason;
-        }));
-  };
-  std::string text;
-  if (const auto count = left_out(LeftOut::window); count > 0) {
-    text += fmt::format("{} not judged: foot outside the window before the fit\n",
-                        points_that(count, "point is", "points are"));
-  }
-  if (const auto count = left_out(LeftOut::edge); count > 0) {
-    text += fmt::format(
-        "{} not judged: foot on an outer edge of the design, and no farther beyond it than the "
-        "tolerance\n",
-        points_that(count, "point is", "points are"));
-  }
-  return text + beyond_line(result);
 }
 
 /// The points of the leading edge, and those that are not judged.
