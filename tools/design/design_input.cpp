@@ -9,6 +9,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/geometry/surface/design_image.hpp"
 #include "tools/files/read_text.hpp"
