@@ -58,11 +58,10 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
   return names;
 }
 
-/// "'--tolerence' is no option of localize (did you mean --tolerance?)" for the first word that has no meaning there;
-/// empty where each has one.
+/// "'--tolerence' is not an option of localize (did you mean --tolerance?)" for the first word that has no meaning
+/// there; empty where each has one.
 std::string unknown_option(const CLI::App& app) {
-  if (app.get_subcommands().empty()) return "";
-  const CLI::App& command = *app.get_subcommands().front();
+  const CLI::App& command = app.get_subcommands().empty() ? app : *app.get_subcommands().front();
   std::vector<std::string> flags;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);

@@ -79,8 +79,7 @@ std::string_view as_text(const std::vector<std::byte>& bytes) {
 
 /// An output must overwrite neither the design nor another output.
 void check_outputs(const CompileOptions& options) {
-  if (options.output == "-" || options.c_array == "-")
-    throw ToolError("-o -: a design is not written to standard output; name a file");
+  if (options.c_array == "-") throw ToolError("--c-array -: name a file; the array is named after it");
   for (const std::string& design : options.designs) {
     refuse_overwriting(options.output, "design", design);
     refuse_overwriting(options.c_array, "design", design);
@@ -99,29 +98,30 @@ void write_outputs(const CompileOptions& options, const std::vector<std::byte>& 
   output.commit();
 }
 
-void print_patches(const DesignImage& image) {
+void print_patches(std::FILE* words, const DesignImage& image) {
   const auto patches = image.patches();
-  fmt::print("  {} patch{}, {} Bezier spans\n", patches.size(), patches.size() == 1 ? "" : "es", image.spans().size());
+  fmt::print(words, "  {} patch{}, {} Bezier spans\n", patches.size(), patches.size() == 1 ? "" : "es",
+             image.spans().size());
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const ImagePatch& patch = patches[k];
-    fmt::print("  patch {}: degree {} x {}, {} x {} spans, {}\n", k, patch.degree_u, patch.degree_v, patch.spans_u,
-               patch.spans_v, patch.rational != 0 ? "rational" : "polynomial");
+    fmt::print(words, "  patch {}: degree {} x {}, {} x {} spans, {}\n", k, patch.degree_u, patch.degree_v,
+               patch.spans_u, patch.spans_v, patch.rational != 0 ? "rational" : "polynomial");
   }
 }
 
-void print_box(const ImageHeader& header) {
+void print_box(std::FILE* words, const ImageHeader& header) {
   const auto shown = static_cast<DesignUnit>(header.design_unit);
   const double unit = mm_per_unit(shown);
-  fmt::print("  unit of the design: {}\n", shown == DesignUnit::inch ? "inch" : "mm");
+  fmt::print(words, "  unit of the design: {}\n", shown == DesignUnit::inch ? "inch" : "mm");
   for (int axis = 0; axis < 3; ++axis) {
-    fmt::print("  {} {} {:.4f} to {:.4f} {}\n", axis == 0 ? "box:" : "    ", "xyz"[axis], header.box_min[axis] / unit,
-               header.box_max[axis] / unit, unit_name(shown));
+    fmt::print(words, "  {} {} {:.4f} to {:.4f} {}\n", axis == 0 ? "box:" : "    ", "xyz"[axis],
+               header.box_min[axis] / unit, header.box_max[axis] / unit, unit_name(shown));
   }
 }
 
 /// How many spans prove feet without a search, and the median of how near these are to be: half of the spans reach
 /// farther.
-void print_reach(const DesignImage& image) {
+void print_reach(std::FILE* words, const DesignImage& image) {
   const Surface surface(image);
   std::vector<double> outside, inside;
   std::size_t some = 0;
@@ -138,7 +138,7 @@ void print_reach(const DesignImage& image) {
     std::nth_element(values.begin(), middle, values.end());
     return *middle / mm_per_unit(shown);
   };
-  fmt::print("  reach: {:.1f} % of the spans; median {:.4g} {} outside, {:.4g} {} inside\n",
+  fmt::print(words, "  reach: {:.1f} % of the spans; median {:.4g} {} outside, {:.4g} {} inside\n",
              100.0 * static_cast<double>(some) / static_cast<double>(image.spans().size()), median(outside),
              unit_name(shown), median(inside), unit_name(shown));
 }
@@ -153,14 +153,15 @@ DesignImage open_compiled(const CompileOptions& options, const LoadedDesign& des
 }
 
 void print_summary(const CompileOptions& options, const LoadedDesign& design, const DesignImage& image) {
-  fmt::print("{} -> {} ({} bytes)\n", fmt::join(options.designs, " "), options.output, design.image.size());
+  std::FILE* const words = options.output == "-" ? stderr : stdout;
+  fmt::print(words, "{} -> {} ({} bytes)\n", fmt::join(options.designs, " "), options.output, design.image.size());
   if (!options.c_array.empty()) {
-    fmt::print("  C array {} in {}\n", c_array_name(options.c_array), options.c_array);
+    fmt::print(words, "  C array {} in {}\n", c_array_name(options.c_array), options.c_array);
   }
-  print_patches(image);
-  print_box(image.header());
-  print_reach(image);
-  tell_notes(design, stdout, "  ");
+  print_patches(words, image);
+  print_box(words, image.header());
+  print_reach(words, image);
+  tell_notes(design, words, "  ");
 }
 
 std::vector<std::filesystem::path> paths_of(const CompileOptions& options) {
@@ -180,6 +181,16 @@ DesignChoice choice_of(const CompileOptions& options) {
   return choice;
 }
 
+/// The design with the reach of its spans marked.
+LoadedDesign compiled(const CompileOptions& options, const DesignChoice& choice) {
+  ProgressLine progress;
+  progress.begin("reading the design");
+  LoadedDesign design = load_design(paths_of(options), choice);
+  progress.begin("proving how far the spans reach");
+  mark_reach(design.image, [&progress](std::uint32_t done, std::size_t spans) { progress.count(done, spans); });
+  return design;
+}
+
 void compile(const CompileOptions& options) {
   if (options.list) {
     fmt::print("{}", design_list(paths_of(options)));
@@ -188,11 +199,7 @@ void compile(const CompileOptions& options) {
   if (options.output.empty()) throw ToolError("compile: no output is given; name it with -o, or say --list");
   const DesignChoice choice = choice_of(options);
   check_outputs(options);
-  LoadedDesign design = load_design(paths_of(options), choice);
-  ProgressLine line;
-  mark_reach(design.image, [&line](std::uint32_t done, std::size_t spans) {
-    line.tell(fmt::format("proving how far the spans reach: {} of {}", done, spans));
-  });
+  LoadedDesign design = compiled(options, choice);
   const DesignImage image = open_compiled(options, design);
   write_outputs(options, design.image);
   print_summary(options, design, image);
@@ -206,10 +213,12 @@ void add_compile_command(CLI::App& app, int& exit_code) {
   command->footer(kCompileHelp);
   command
       ->add_option("design", options->designs,
-                   "IGES or STEP files (.igs .iges .stp .step .p21 .stpz) of one blade, or an image (.bfd)")
+                   "IGES or STEP files (.igs .iges .stp .step .p21 .stpz) of one blade, or an image (.bfd); - reads "
+                   "standard input")
       ->required()
       ->type_name("DESIGN");
-  command->add_option("-o,--output", options->output, "Design image to write")->type_name("OUT.bfd");
+  command->add_option("-o,--output", options->output, "Design image to write; - writes it to standard output")
+      ->type_name("OUT.bfd");
   command->add_flag("--list", options->list, "Show the faces of the files and write nothing");
   command
       ->add_option("--face", options->faces, "Face to use: number in --list, name or pattern; repeat it (default all)")

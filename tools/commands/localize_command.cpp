@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "drivers/replay/points_csv.hpp"
@@ -15,6 +16,7 @@
 #include "tools/batch/fit_options.hpp"
 #include "tools/commands/design_notes.hpp"
 #include "tools/commands/fit_flags.hpp"
+#include "tools/commands/progress_line.hpp"
 #include "tools/commands/report_record_of.hpp"
 #include "tools/commands/volume_flags.hpp"
 #include "tools/drawing/add_drawing.hpp"
@@ -118,6 +120,19 @@ void write_report(const LocalizeFlags& flags, const FitPlan& plan, const DesignI
   write_output(flags.report, format_of_file(flags.report).text_of(result));
 }
 
+/// What there is to know beside the summary, which comes first: its first line is the verdict.
+void tell_besides(const LocalizeFlags& flags, const LoadedDesign& design, const FitPlan& plan, const BatchFit& batch,
+                  std::FILE* words) {
+  tell_notes(design, words);
+  fmt::print(words, "{}", plan.note);
+  if (!flags.starts.empty()) {
+    fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", batch.wrong_starts,
+               batch.result.points.size(), batch.wrong_starts > 0 ? "; fitted again from searched ones" : "");
+  }
+  for (const std::string& file : {flags.json, flags.report})
+    if (!file.empty() && file != "-") fmt::print(words, "Written: {}\n", file);
+}
+
 int localize(const LocalizeFlags& flags) {
   FitSettings from_file;
   if (!flags.config.empty()) {
@@ -128,7 +143,9 @@ int localize(const LocalizeFlags& flags) {
   const std::string begun = utc_now();
   const bool json_on_stdout = flags.json == "-";
   std::FILE* words = json_on_stdout ? stderr : stdout;
-  StepClock clock(flags.volume, words);
+  StepClock clock(flags.volume);
+  std::optional<ProgressLine> progress(!flags.volume.quiet);
+  progress->begin("reading the design");
   const LoadedDesign loaded = load_design(flags.design, design_choice_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
@@ -138,22 +155,17 @@ int localize(const LocalizeFlags& flags) {
   if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
   const std::vector<ProbePoint> points = read_points(flags, plan);
   clock.done("points read");
-  if (!flags.volume.quiet) {
-    tell_notes(loaded, words);
-    fmt::print(words, "{}", plan.note);
-  }
+  progress->begin(fmt::format("fitting {} points", points.size()));
   BatchFit batch = fit_points(design, plan, points, file_name(flags.points));
   clock.done("points fitted and judged");
   Result& result = batch.result;
-  if (!flags.starts.empty() && !flags.volume.quiet) {
-    fmt::print(words, "starts: {} of {} first feet were not the nearest{}\n", batch.wrong_starts, points.size(),
-               batch.wrong_starts > 0 ? "; fitted again from searched ones" : "");
-  }
+  if (json_on_stdout) progress.reset();
+  if (progress) progress->begin("writing");
   if (!flags.json.empty()) write_output(flags.json, result_json(result));
   if (!flags.report.empty()) write_report(flags, plan, design, begun, result);
+  progress.reset();
   fmt::print(words, "{}", told_of(operator_summary(result), flags.volume));
-  if (!flags.json.empty() && !json_on_stdout && !flags.volume.quiet) fmt::print(words, "Written: {}\n", flags.json);
-  if (!flags.report.empty() && !flags.volume.quiet) fmt::print(words, "Written: {}\n", flags.report);
+  if (!flags.volume.quiet) tell_besides(flags, loaded, plan, batch, words);
   return exit_code_of(result);
 }
 
@@ -167,7 +179,9 @@ void add_localize_command(CLI::App& app, int& exit_code) {
       "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1mm\n"
       "  bladefit localize --design blade.bfd --points - --mode min_tolerance --leading-edge auto:5mm --json - "
       "< points.csv");
-  command->add_option("--design", flags->design, "design: .igs .iges .stp .step, or .bfd from `bladefit compile`")
+  command
+      ->add_option("--design", flags->design,
+                   "design: .igs .iges .stp .step, or .bfd from `bladefit compile`; - reads standard input")
       ->required();
   command
       ->add_option("--points", flags->points,

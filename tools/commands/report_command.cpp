@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "firmware_bridge/host/journal/session_file_names.hpp"
+#include "tools/commands/progress_line.hpp"
 #include "tools/drawing/add_drawing.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/files/tool_error.hpp"
@@ -57,7 +59,10 @@ Result session_result(const std::string& directory) {
 void report(const ReportOptions& options) {
   const ReportFormat& format = format_of(options.format);
   check_output(options);
+  std::optional<ProgressLine> progress(options.output != "-");
+  progress->begin("writing the report");
   write_output(options.output, format.text_of(session_result(options.session)));
+  progress.reset();
   if (options.output != "-") fmt::print("Written: {}\n", options.output);
 }
 

@@ -101,22 +101,51 @@ void check_figures(const ReproduceFlags& flags, const std::filesystem::path& fol
   }
 }
 
+bool has_one_of(const std::set<int>& wanted, std::initializer_list<int> numbers) {
+  return std::any_of(numbers.begin(), numbers.end(), [&](int n) { return wanted.count(n) > 0; });
+}
+
+bool wants_unconstrained(const ThesisStudy& study, const std::set<int>& wanted) {
+  return has_one_of(wanted, {study.rms_table, study.motion_table});
+}
+
+bool wants_constrained(const ThesisStudy& study, const std::set<int>& wanted) {
+  return has_one_of(wanted,
+                    {study.leading_edge_table, study.rest_table, study.constrained_motion_table, study.global_table});
+}
+
+/// Counts the fits for the progress line.
+class Rounds {
+ public:
+  explicit Rounds(const std::set<int>& wanted) {
+    for (const ThesisStudy& study : thesis_studies()) {
+      if (wants_unconstrained(study, wanted)) all_ += study.unconstrained.size();
+      if (wants_constrained(study, wanted)) all_ += study.constrained.size();
+    }
+    line_.begin("fitting the tables");
+  }
+
+  /// Another fit begins.
+  void next() { line_.count(begun_++, all_); }
+
+ private:
+  ProgressLine line_;
+  std::size_t begun_ = 0, all_ = 0;
+};
+
 std::vector<ReportTable> tables_of(const ThesisStudy& study, const StudyCase& data, const std::set<int>& wanted,
-                                   ProgressLine& progress) {
-  const auto any = [&wanted](std::initializer_list<int> numbers) {
-    return std::any_of(numbers.begin(), numbers.end(), [&](int n) { return wanted.count(n) > 0; });
-  };
+                                   Rounds& rounds) {
   std::vector<UnconstrainedPair> unconstrained;
-  if (any({study.rms_table, study.motion_table})) {
+  if (wants_unconstrained(study, wanted)) {
     for (const UnconstrainedFigures& row : study.unconstrained) {
-      progress.tell(fmt::format("{}: {} points", study.data, row.points));
+      rounds.next();
       unconstrained.push_back({row, run_subset(data, row.subset, false)});
     }
   }
   std::vector<ConstrainedPair> constrained;
-  if (any({study.leading_edge_table, study.rest_table, study.constrained_motion_table, study.global_table})) {
+  if (wants_constrained(study, wanted)) {
     for (const ConstrainedFigures& row : study.constrained) {
-      progress.tell(fmt::format("{}: {} points, constrained", study.data, row.points));
+      rounds.next();
       constrained.push_back({row, run_subset(data, row.subset, true)});
     }
   }
@@ -124,27 +153,22 @@ std::vector<ReportTable> tables_of(const ThesisStudy& study, const StudyCase& da
 }
 
 bool has_any(const ThesisStudy& study, const std::set<int>& wanted) {
-  const auto numbers = {
-      study.rms_table,   study.motion_table, study.leading_edge_table, study.rest_table, study.constrained_motion_table,
-      study.global_table};
-  return std::any_of(numbers.begin(), numbers.end(), [&](int n) { return wanted.count(n) > 0; });
+  return wants_unconstrained(study, wanted) || wants_constrained(study, wanted);
 }
 
 std::vector<ReportTable> all_tables(const ReproduceFlags& flags) {
   const std::set<int> wanted = wanted_tables(flags);
   const std::filesystem::path folder = data_folder(flags);
   check_figures(flags, folder);
-  ProgressLine progress;
+  Rounds rounds(wanted);
   std::vector<ReportTable> tables;
   ReportTable checks = check_table(), costs = start_cost_table();
   for (const ThesisStudy& study : thesis_studies()) {
     if (!has_any(study, wanted)) continue;
-    progress.tell(fmt::format("{}: reading the design", study.data));
     const StudyCase data = read_study_case(folder / study.data);
-    const std::vector<ReportTable> own = tables_of(study, data, wanted, progress);
+    const std::vector<ReportTable> own = tables_of(study, data, wanted, rounds);
     tables.insert(tables.end(), own.begin(), own.end());
     if (!flags.tables.empty() || study.three_patches) continue;
-    progress.tell(fmt::format("{}: checks and costs", study.data));
     add_validity_checks(data, study.unconstrained.front().subset, checks);
     add_start_costs(data, "full", costs);
   }

@@ -121,7 +121,7 @@ std::vector<std::string> stray_parts(const RunPlan& plan) {
 int run(const RunFlags& flags) {
   const RunPlan plan = plan_run(flags);
   const RunWords words(plan.json == "-" ? stderr : stdout);
-  StepClock clock(plan.volume, words.file);
+  StepClock clock(plan.volume);
   if (!plan.volume.quiet) {
     tell_notes(plan.design, words.file);
     fmt::print(words.file, "{}", plan.fit.note);

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "tools/batch/tip_radius.hpp"
 #include "tools/commands/design_notes.hpp"
 #include "tools/commands/fit_flags.hpp"
+#include "tools/commands/progress_line.hpp"
 #include "tools/files/output_file.hpp"
 #include "tools/show/design_page.hpp"
 
@@ -106,8 +108,11 @@ void run_show(const ShowFlags& flags) {
   for (const std::string& design : flags.designs) refuse_overwriting(flags.output, "design", design);
   refuse_overwriting(flags.output, "points", flags.points);
   refuse_overwriting(flags.output, "zones", flags.settings.zones_file);
+  std::optional<ProgressLine> progress(std::in_place);
+  progress->begin("reading the design");
   const LoadedDesign loaded = load_design(
       std::vector<std::filesystem::path>(flags.designs.begin(), flags.designs.end()), design_choice_of(flags.settings));
+  progress.reset();
   DesignImage image;
   if (const Status status = DesignImage::open(loaded.image, image); status != Status::ok)
     throw ToolError(fmt::format("{}: {}", flags.designs.front(), status_text(status)));

@@ -177,7 +177,7 @@ void write_with_subset(const SplitFlags& flags, const std::vector<NurbsSurface>&
 
 void run_split(const SplitFlags& flags) {
   check_flags(flags);
-  const DesignFile design = read_design(flags.design);
+  const DesignFile design = read_designs({flags.design});
   const std::vector<PatchWindow> parts = parts_of(parse_cuts(flags.cuts, design.surfaces.size()));
   const std::vector<PatchWindow> windows = inside_buffer(parts, flags.buffer);
   std::vector<NurbsSurface> surfaces;

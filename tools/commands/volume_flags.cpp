@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 namespace bladefit {
 
 void add_volume_flags(CLI::App& command, Volume& volume) {
@@ -16,9 +18,9 @@ std::string told_of(const std::string& summary, const Volume& volume) {
 
 void StepClock::done(const std::string& step) {
   const auto now = std::chrono::steady_clock::now();
-  if (words_ != nullptr) {
+  if (told_) {
     const std::chrono::duration<double, std::milli> took = now - begun_;
-    fmt::print(words_, "{}: {:.1f} ms\n", step, took.count());
+    std::fputs(fmt::format("{}: {:.1f} ms\n", step, took.count()).c_str(), stderr);
   }
   begun_ = now;
 }

@@ -1,7 +1,6 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdio>
 #include <string>
 
 namespace bladefit {
@@ -17,16 +16,16 @@ void add_volume_flags(CLI::App& command, Volume& volume);
 /// What of a summary is told: all of it, or its first line.
 [[nodiscard]] std::string told_of(const std::string& summary, const Volume& volume);
 
-/// Tells how long the steps of a command took, where that is wanted.
+/// Tells on standard error how long the steps of a command took, where that is wanted.
 class StepClock {
  public:
-  StepClock(const Volume& volume, std::FILE* words) : words_(volume.verbose ? words : nullptr) {}
+  explicit StepClock(const Volume& volume) : told_(volume.verbose) {}
 
   /// The step that has just ended, in words such as "points read".
   void done(const std::string& step);
 
  private:
-  std::FILE* words_;
+  bool told_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 

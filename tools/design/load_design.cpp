@@ -8,6 +8,7 @@
 #include "tools/design/blade_choice.hpp"
 #include "tools/design/choose_sides.hpp"
 #include "tools/design/design_doubts.hpp"
+#include "tools/design/design_input.hpp"
 #include "tools/design/face_choice.hpp"
 #include "tools/design/image/image_writer.hpp"
 #include "tools/design/nurbs/length_unit.hpp"
@@ -77,7 +78,9 @@ OutwardChoice outward_choice(std::string_view text) {
   return choice;
 }
 
-DesignFile read_designs(const std::vector<std::filesystem::path>& paths) {
+DesignFile read_designs(const std::vector<std::filesystem::path>& names) {
+  const DesignInput input(names);
+  const std::vector<std::filesystem::path>& paths = input.paths();
   DesignFile design = read_design(paths.front());
   for (std::size_t k = 1; k < paths.size(); ++k) {
     DesignFile other = read_design(paths[k]);
@@ -100,7 +103,9 @@ LoadedDesign load_design(const std::filesystem::path& path, const DesignChoice& 
   return load_design(std::vector{path}, choice);
 }
 
-LoadedDesign load_design(const std::vector<std::filesystem::path>& paths, const DesignChoice& choice) {
+LoadedDesign load_design(const std::vector<std::filesystem::path>& names, const DesignChoice& choice) {
+  const DesignInput input(names);
+  const std::vector<std::filesystem::path>& paths = input.paths();
   const std::string file = paths.front().string();
   if (paths.size() == 1 && lower_extension(paths.front()) == ".bfd") return load_image(paths.front(), choice);
   DesignFile design = read_designs(paths);

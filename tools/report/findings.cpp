@@ -68,6 +68,7 @@ std::string region_sentence(const Result& result, Region region) {
   text += out_sentence(result, found);
   if (found.pending > 0)
     text += fmt::format(" {} of them not decided, because the points do not determine the fit there.", found.pending);
+  if (found.undecided > 0) text += fmt::format(" {} undecided.", counted(found.undecided, "point"));
   return text;
 }
 
@@ -79,6 +80,7 @@ RegionFindings findings_of(const Result& result, Region region) {
     if (point.region != region || point.state == PointState::rejected) continue;
     ++found.points;
     if (point.state == PointState::pending) ++found.pending;
+    if (point.state == PointState::undecided) ++found.undecided;
     if (point.state != PointState::out) continue;
     ++(point.action == Action::none ? found.beyond : point.distance > 0 ? found.cut : found.weld);
     if (!found.worst_out || std::abs(point.distance) > std::abs(found.worst_out->distance)) found.worst_out = point;

@@ -13,7 +13,7 @@ struct RegionFindings {
   std::uint32_t points = 0;  ///< of the region, rejected ones left out
   std::uint32_t cut = 0, weld = 0;
   std::uint32_t beyond = 0;  ///< out beyond an outer edge of the design, where neither is proven
-  std::uint32_t pending = 0;
+  std::uint32_t pending = 0, undecided = 0;
   std::optional<ResultPoint> worst_out;  ///< the out-of-tolerance point of the largest distance; none is out without
 
   [[nodiscard]] std::uint32_t out() const { return cut + weld + beyond; }

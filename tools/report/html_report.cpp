@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/report/blade_map.hpp"
 #include "tools/report/chord_table.hpp"
 #include "tools/report/defect_table.hpp"
@@ -22,7 +24,7 @@
 namespace bladefit {
 namespace {
 
-constexpr std::size_t kDefectsOnFirstPage = 8, kMostDefects = 200;
+constexpr std::size_t kMostDefects = 200;
 
 const char* style_of(BladeState state) {
   if (state == BladeState::out_of_tolerance) return "bad";
@@ -69,6 +71,15 @@ std::string listed(const std::vector<std::string>& sentences) {
   return sentences.empty() ? "" : sentence_list(sentences);
 }
 
+/// How many rows of defects the first page has room for, with the map below them: what verdict and identity take is
+/// gone.
+std::size_t defects_on_first_page(const Result& result) {
+  constexpr std::size_t kRows = 13, kLeast = 3, kMost = 8, kHeadline = 80, kLine = 110;
+  std::size_t taken = identity_rows(result) + headline(result).size() / kHeadline;
+  for (const VerdictReason& reason : result.verdict.reasons) taken += 1 + reason.text.size() / kLine;
+  return std::clamp(kRows - std::min(taken, kRows), kLeast, kMost);
+}
+
 }  // namespace
 
 std::string html_report(const Result& result) {
@@ -76,9 +87,10 @@ std::string html_report(const Result& result) {
   const ToleranceScale shares = tolerance_scale_of(result);
   const DrawnPoints drawn = drawn_points_of(result, shares);
   const std::string spread = spread_map(result, shares, drawn);
+  const std::size_t first_defects = defects_on_first_page(result);
   std::string html = head(result) + "<body>\n<h1>Blade inspection report</h1>\n" + verdict_box(result);
   html += identity_table(result);
-  html += section("Defects", defect_table(result, 0, kDefectsOnFirstPage));
+  html += section("Defects", defect_table(result, 0, first_defects));
   html += section("Map of the blade", spread.empty() ? "" : spread);
   html += note_of(thinned_note(result, drawn));
   html += page("Pressure and suction side", side_views(result, shares, drawn));
@@ -91,7 +103,7 @@ std::string html_report(const Result& result) {
   html += section("Zones", zone_table(result));
   html += section("Regions", region_table(result));
   html += section("Pose", pose_table(result));
-  html += section("More defects", defect_table(result, kDefectsOnFirstPage, kMostDefects));
+  html += section("More defects", defect_table(result, first_defects, kMostDefects));
   html += section("Points out of tolerance", out_table(result));
   html += section("Distances", distance_histogram(result, scale));
   html += section("Map in the parameters of the patches", blade_map(result, scale, drawn));

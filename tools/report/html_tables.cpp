@@ -33,7 +33,8 @@ std::string region_row(const Result& result, Region region) {
                 : std::isfinite(tolerance) ? "±" + text.plain(tolerance)
                                            : "not judged",
                 text.plain(sums.rms_before), text.plain(sums.rms_after), text.plain(sums.max_after),
-                fmt::format("{}", found.cut), fmt::format("{}", found.weld), fmt::format("{}", found.pending)});
+                fmt::format("{}", found.cut), fmt::format("{}", found.weld),
+                fmt::format("{}", found.pending + found.undecided)});
 }
 
 std::string out_row(const Result& result, const ResultPoint& point) {

@@ -38,6 +38,8 @@ Entries entries_of(const Result& result) {
 
 }  // namespace
 
+std::size_t identity_rows(const Result& result) { return (entries_of(result).size() + 1) / 2; }
+
 std::string identity_table(const Result& result) {
   const Entries entries = entries_of(result);
   std::string html = "<table class=\"identity\"><tbody>\n";

@@ -24,7 +24,7 @@ th { text-align: right; font-weight: 600; vertical-align: bottom; border-bottom:
 td { text-align: right; border-bottom: 1px solid #dcdfe3; padding: 2.5px 6px; white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; }
 .identity { table-layout: fixed; } .identity td { text-align: left; white-space: normal; overflow-wrap: anywhere; vertical-align: top; }
-.identity td:nth-child(odd) { color: #565c64; width: 17%; } .identity td:nth-child(even) { font-weight: 600; }
+.identity td:nth-child(odd) { color: #565c64; width: 17%; } .settings td:nth-child(odd) { width: 29%; } .identity td:nth-child(even) { font-weight: 600; }
 .wide td { text-align: left; white-space: normal; overflow-wrap: anywhere; } .wide th { text-align: left; }
 .files td:nth-child(3) { text-align: right; white-space: nowrap; } .sum { font-family: monospace; font-size: 10px; }
 .points { font-size: 11.5px; } .points th, .points td { padding: 2px 4px; }
@@ -45,7 +45,7 @@ constexpr const char* kPrintStyle = R"(
 @media print { body { margin: 0; padding: 0; max-width: none; font-size: 9.6pt; print-color-adjust: exact;
   -webkit-print-color-adjust: exact; }
   table { font-size: 8.3pt; } .points { font-size: 7.4pt; } .chords { font-size: 6.4pt; } .note, .session { font-size: 8pt; }
-  .sum { font-size: 6.8pt; } svg, tr, .headline, .keep, table.identity, table.defects, table.regions { break-inside: avoid; } h2, h3 { break-after: avoid; }
+  .sum { font-size: 6.8pt; } svg, tr, .headline, .keep, table.identity, table.defects, table.regions, table.files { break-inside: avoid; } h2, h3 { break-after: avoid; }
   thead { display: table-header-group; } .page { break-before: page; } }
 )";
 

@@ -139,7 +139,7 @@ std::string settings_table(const Result& result) {
     if (is_told(setting.first)) told.push_back(setting);
   }
   if (told.empty()) return "";
-  std::string html = "<table class=\"identity\"><tbody>\n";
+  std::string html = "<table class=\"identity settings\"><tbody>\n";
   for (std::size_t k = 0; k < told.size(); k += 2) {
     html += "<tr>";
     for (const std::size_t i : {k, k + 1}) {

@@ -141,16 +141,32 @@ std::string end_text(FitEnd ended) {
   return "check that design, units and start belong to these points, or fit with the mode least_squares";
 }
 
+const char* them(std::size_t count) { return count == 1 ? "it" : "them"; }
+
+std::string refused_text(const std::vector<std::uint32_t>& refused) {
+  return fmt::format("{} cannot be used: no numbers, or over a thousand half sizes of the blade away; probe {} again",
+                     refused.size() == 1
+                         ? fmt::format("point {}", refused.front())
+                         : fmt::format("{} points, the first of them number {},", refused.size(), refused.front()),
+                     them(refused.size()));
+}
+
+std::string pending_text(std::size_t count) {
+  return fmt::format("{} not determined well enough to be judged; probe more points near {} and over the whole blade",
+                     count == 1 ? "1 point is" : fmt::format("{} points are", count), them(count));
+}
+
 std::string undecided_text(const Counts& counts) {
   const std::string beyond = fmt::format(
-      "{} points lie far beyond the edge of the design, where it says nothing of them: add the face there (--face, "
-      "--design), or leave them out with --subset or --window",
-      counts.beyond);
+      "{} far beyond the edge of the design, where it says nothing of {}: add the face there (--face, --design), or "
+      "leave {} out with --subset or --window",
+      counts.beyond == 1 ? "1 point lies" : fmt::format("{} points lie", counts.beyond), them(counts.beyond),
+      them(counts.beyond));
   if (counts.beyond == counts.undecided) return beyond;
+  const std::uint32_t count = counts.undecided - counts.beyond;
   const std::string near = fmt::format(
-      "{} points are nearer to their tolerance than the expanded uncertainty; measure them more accurately or probe "
-      "more points",
-      counts.undecided - counts.beyond);
+      "{} tolerance than the expanded uncertainty; measure {} more accurately or probe more points",
+      count == 1 ? "1 point is nearer to its" : fmt::format("{} points are nearer to their", count), them(count));
   return counts.beyond == 0 ? near : near + "; " + beyond;
 }
 
@@ -175,17 +191,11 @@ class Texts {
       case Reason::points_lost:
         return lost_text(stream_);
       case Reason::points_refused:
-        return fmt::format(
-            "{} points, the first of them number {}, cannot be used: no numbers, or over a thousand half sizes of the "
-            "blade away; probe them again",
-            stream_.refused.size(), stream_.refused.front());
+        return refused_text(stream_.refused);
       case Reason::zone_not_probed:
         return zone_text(result_, counts_.zones, map_);
       case Reason::pending:
-        return fmt::format(
-            "{} points are not determined well enough to be judged; probe more points near them and over the whole "
-            "blade",
-            counts_.pending);
+        return pending_text(counts_.pending);
       case Reason::undecided:
         return undecided_text(counts_);
       case Reason::unfinished:

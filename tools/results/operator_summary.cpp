@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tools/results/left_out_lines.hpp"
 #include "tools/results/optimum_lines.hpp"
 #include "tools/results/words.hpp"
 #include "tools/results/zone_lines.hpp"
@@ -23,9 +24,13 @@ std::string and_more(std::size_t count) {
   return count > kListed ? fmt::format(" and {} more", count - kListed) : std::string();
 }
 
+/// How far a point is off and at which radius, where the foot is known.
 std::string where(const Result& result, const ResultPoint& point) {
-  return fmt::format("{:+.3f} {} (unfitted {:+.3f}) at r/R {:.2f}", result.in_units(point.distance), result.units,
-                     result.in_units(point.before), result.axis.radius_of(point.foot.value()) / result.tip_radius);
+  std::string text = fmt::format("{:+.3f} {} (unfitted {:+.3f})", result.in_units(point.distance), result.units,
+                                 result.in_units(point.before));
+  if (point.foot && result.tip_radius > 0.0)
+    text += fmt::format(" at r/R {:.2f}", result.axis.radius_of(*point.foot) / result.tip_radius);
+  return text;
 }
 
 std::string_view what_to_do(const ResultPoint& point) {
@@ -102,15 +107,21 @@ std::string fit_remarks(const Result& result) {
   return text + outlier_line(result) + robust_line(result);
 }
 
+/// ", 6 of 6 degrees of freedom determined"; empty where that is not known.
+std::string determined(const Result& result) {
+  if (!result.details) return "";
+  return fmt::format(", {} of {} degrees of freedom determined", result.details->determined, result.details->free);
+}
+
 std::string fit_lines(const Result& result) {
   const EulerAngles e = euler_angles(result.pose.rotation);
   const Vec3 t = result.pose.translation / result.mm_per_unit;
   return fmt::format(
-      "Fit {}: {} of {} points, {} of {} degrees of freedom determined, rms {:.4f} {} (before {:.4f} {})\n"
+      "Fit {}: {} of {} points{}, rms {:.4f} {} (before {:.4f} {})\n"
       "Pose: tx {:.5f} ty {:.5f} tz {:.5f} {}; psi {:.7f} theta {:.7f} phi {:.7f} rad\n",
-      result.status, result.all.count, result.points.size(), result.details->determined, result.details->free,
-      result.in_units(result.all.rms_after), result.units, result.in_units(result.all.rms_before), result.units, t[0],
-      t[1], t[2], result.units, e.psi, e.theta, e.phi);
+      result.status, result.all.count, result.points.size(), determined(result), result.in_units(result.all.rms_after),
+      result.units, result.in_units(result.all.rms_before), result.units, t[0], t[1], t[2], result.units, e.psi,
+      e.theta, e.phi);
 }
 
 /// The word on the blade, then every reason.
@@ -128,49 +139,6 @@ std::string decision_line(const Result& result) {
   return fmt::format("Decision: guarded (ISO 14253-1), in or out only beyond U = {:g} u\n", verdict.coverage_factor);
 }
 
-/// "1 point is", "3 points are": with the verb for one and for several.
-std::string points_that(std::size_t count, const char* one, const char* several) {
-  return fmt::format("{} {}", count, count == 1 ? one : several);
-}
-
-/// Points that are out, but where the design has no surface.
-std::string beyond_line(const Result& result) {
-  std::size_t count = 0;
-  double farthest = 0.0;
-  for (const ResultPoint& point : result.points) {
-    if (point.state != PointState::out || point.action != Action::none) continue;
-    ++count;
-    farthest = std::max(farthest, point.beyond);
-  }
-  if (count == 0) return "";
-  return fmt::format(
-      "{} up to {} beyond the edge of the design, where there is no surface to cut or weld to: check whether the blade "
-      "is longer there, or was probed past the end of the design; then leave them out with --subset or --window\n",
-      points_that(count, "point lies", "points lie"), length_text(result, farthest));
-}
-
-/// Points that are not judged, and why.
-std::string left_out_lines(const Result& result) {
-  const auto left_out = [&result](LeftOut reason) {
-    return static_cast<std::size_t>(
-        std::count_if(result.points.begin(), result.points.end(), [reason](const ResultPoint& point) {
-          return point.state == PointState::rejected && point.left_out == reason;
-        }));
-  };
-  std::string text;
-  if (const auto count = left_out(LeftOut::window); count > 0) {
-    text += fmt::format("{} not judged: foot outside the window before the fit\n",
-                        points_that(count, "point is", "points are"));
-  }
-  if (const auto count = left_out(LeftOut::edge); count > 0) {
-    text += fmt::format(
-        "{} not judged: foot on an outer edge of the design, and no farther beyond it than the "
-        "tolerance\n",
-        points_that(count, "point is", "points are"));
-  }
-  return text + beyond_line(result);
-}
-
 /// The points of the leading edge, and those that are not judged.
 std::string point_lines(const Result& result) {
   std::string text;
@@ -183,7 +151,9 @@ std::string point_lines(const Result& result) {
 }
 
 std::string tolerance_lines(const Result& result) {
-  const double edge = result.details->leading_edge_tolerance, rest = result.details->rest_tolerance;
+  const auto& details = result.details;
+  const double edge = details ? details->leading_edge_tolerance : result.leading_edge.tolerance;
+  const double rest = details ? details->rest_tolerance : result.rest.tolerance;
   const bool zoned = !result.zones.empty(), edge_judged = !result.boxes.empty() && std::isfinite(edge);
   const auto allowed = [&](double mm) {
     return std::isfinite(mm) ? fmt::format("{:.3f} {}", result.in_units(mm), result.units) : std::string("none");

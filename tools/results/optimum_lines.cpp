@@ -67,7 +67,7 @@ std::string length_text(const Result& result, double mm) {
 
 std::string optimum_lines(const Result& result) {
   const double factor = result.tolerance_factor;
-  if (factor <= 0.0) return "";
+  if (factor <= 0.0 || !result.details) return "";
   const std::string held =
       result.details->held_feet == 0
           ? std::string()

@@ -6,7 +6,7 @@
 namespace bladefit {
 
 /// What the mode found, in words, with the points that prove it; empty in least squares and in a constrained fit that
-/// meets its tolerances. The result has details.
+/// meets its tolerances, and where the files that a result was read from do not tell all of it.
 [[nodiscard]] std::string optimum_lines(const Result& result);
 
 /// A length in the units of a result, as the operator reads it: "0.0134 in".

@@ -25,9 +25,16 @@ FedVerdict fed_verdict(const Verdict& verdict, std::uint32_t time_ms) {
           .region = verdict.region};
 }
 
-bool looks_the_same(const FedVerdict& one, const FedVerdict& other) {
+/// `same` [mm]: distances that differ by less are shown as the same.
+bool looks_the_same(const FedVerdict& one, const FedVerdict& other, float same) {
   return one.state == other.state && one.action == other.action && one.region == other.region &&
-         std::abs(one.distance - other.distance) < kSameDistance;
+         std::abs(one.distance - other.distance) < same;
+}
+
+/// What nobody sees in the colour of a point [mm].
+float least_followed(const FedVerdict& verdict) {
+  constexpr float kShare = 1.0F / 64, kUntolerated = 0.005F;
+  return std::isfinite(verdict.tolerance) ? std::max(kShare * verdict.tolerance, kSameDistance) : kUntolerated;
 }
 
 }  // namespace
@@ -60,17 +67,37 @@ PointFeed::Place& PointFeed::place_of(std::uint32_t sequence) {
   return places_[slot];
 }
 
-void PointFeed::judged(const Verdict& verdict) {
+FedVerdict PointFeed::fed(const Verdict& verdict) const {
   const auto age = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start_);
-  const FedVerdict fed = fed_verdict(verdict, static_cast<std::uint32_t>(age.count()));
-  const std::lock_guard lock(mutex_);
-  Place& place = place_of(verdict.sequence);
-  if (place.last > 0 && looks_the_same(place.point.verdict, fed)) return;
-  place.point.verdict = fed;
+  return fed_verdict(verdict, static_cast<std::uint32_t>(age.count()));
+}
+
+/// Makes it the newest change.
+void PointFeed::put(Place& place, const Verdict& verdict, const Remembered& now) {
+  place.point.verdict = now.verdict;
   place.point.foot = floats_of(verdict.foot.point);
   place.point.normal = floats_of(verdict.foot.normal);
-  remembered_[++last_ % remembered_.size()] = {fed, place.last};
+  remembered_[++last_ % remembered_.size()] = now;
   place.last = last_;
+}
+
+void PointFeed::judged(const Verdict& verdict) {
+  const FedVerdict now = fed(verdict);
+  const std::lock_guard lock(mutex_);
+  Place& place = place_of(verdict.sequence);
+  if (place.last > 0 && looks_the_same(place.point.verdict, now, kSameDistance)) return;
+  put(place, verdict, {.verdict = now, .before = place.last});
+}
+
+void PointFeed::followed(const Verdict& verdict) {
+  const FedVerdict now = fed(verdict);
+  const std::lock_guard lock(mutex_);
+  const auto entry = slots_.find(verdict.sequence);
+  if (entry == slots_.end()) return;
+  Place& place = places_[entry->second];
+  if (looks_the_same(place.point.verdict, now, least_followed(now))) return;
+  const bool again = is_remembered(place.last) && remembered(place.last).followed;
+  put(place, verdict, {.verdict = now, .before = again ? remembered(place.last).before : place.last, .followed = true});
 }
 
 void PointFeed::clear() {

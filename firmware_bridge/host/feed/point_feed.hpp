@@ -41,6 +41,10 @@ class PointFeed {
   /// Takes a first verdict or a later one. What differs in nothing that is shown is no change.
   void judged(const Verdict& verdict);
 
+  /// Takes a distance that has gone on with the pose, where it looks another one by now: of all such since the point
+  /// was judged the newest is remembered. An unknown point is left out.
+  void followed(const Verdict& verdict);
+
   /// Forgets every point.
   void clear();
 
@@ -63,6 +67,7 @@ class PointFeed {
   struct Remembered {
     FedVerdict verdict;
     std::uint64_t before = 0;
+    bool followed = false;
   };
   struct Place {
     FedPoint point;
@@ -70,6 +75,8 @@ class PointFeed {
   };
 
   [[nodiscard]] Place& place_of(std::uint32_t sequence);
+  [[nodiscard]] FedVerdict fed(const Verdict& verdict) const;
+  void put(Place& place, const Verdict& verdict, const Remembered& now);
   [[nodiscard]] bool is_remembered(std::uint64_t number) const {
     return number > 0 && number + remembered_.size() > last_;
   }

@@ -18,12 +18,16 @@ void FitWorker::run() {
   while (true) {
     if (!shared_.to_fit.ring.pop(input)) {
       if (events_since_figures_ > 0) publish_figures();
-      shared_.to_fit.wakeup.wait(kWait);
+      report_distances();
+      shared_.to_fit.wakeup.wait(sweep_.is_due(revision_) ? DistanceSweep::kPace : kWait);
       continue;
     }
     if (input.end) break;
     take(input.event);
-    if (++events_since_figures_ >= kEventsBetweenFigures) publish_figures();
+    if (++events_since_figures_ >= kEventsBetweenFigures) {
+      publish_figures();
+      report_distances();
+    }
   }
   if (input.finished) losses_.finish();
   stream_.settle();
@@ -65,7 +69,7 @@ bool FitWorker::keep_place(std::uint32_t sequence) {
 // reported again as well.
 void FitWorker::settled() {
   publish_revisions();
-  report_again(stored_sequences_);
+  report_again(stored_sequences_, FitOutput::Kind::judged);
   shared_.to_publication.wakeup.signal();
 }
 
@@ -93,18 +97,25 @@ void FitWorker::publish_revisions() {
   if (any) shared_.to_publication.wakeup.signal();
 }
 
-void FitWorker::report_again(std::span<const std::uint32_t> sequences) {
+void FitWorker::report_again(std::span<const std::uint32_t> sequences, FitOutput::Kind kind) {
   Verdict verdict;
   for (const std::uint32_t sequence : sequences) {
-    if (sequence != 0 && stream_.localizer().verdict_of(sequence, verdict) == Status::ok)
-      publish({FitOutput::Kind::judged, verdict});
+    if (sequence != 0 && stream_.localizer().verdict_of(sequence, verdict) == Status::ok) publish({kind, verdict});
   }
 }
 
+/// A few more points of the sweep. Nobody waits for them: they do without a signal, and where room is scarce.
+void FitWorker::report_distances() {
+  if (shared_.to_publication.ring.room() < decltype(shared_.to_publication)::kCapacity / 2) return;
+  report_again(sweep_.next(stored_sequences_, revision_, Clock::now()), FitOutput::Kind::followed);
+}
+
 void FitWorker::publish_figures() {
-  report_again(alarms_.sequences());
+  report_again(alarms_.sequences(), FitOutput::Kind::followed);
   constexpr double kPercentile = 0.99;
-  shared_.fit_figures.publish({stream_.localizer().fit(), losses_, latency_.quantile_us(kPercentile)});
+  const FitReport report = stream_.localizer().fit();
+  revision_ = report.revision;
+  shared_.fit_figures.publish({report, losses_, latency_.quantile_us(kPercentile)});
   events_since_figures_ = 0;
   shared_.to_publication.wakeup.signal();
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "firmware_bridge/host/fit/distance_sweep.hpp"
 #include "firmware_bridge/host/fit/fit_stream.hpp"
 #include "firmware_bridge/host/fit/recent_alarms.hpp"
 #include "firmware_bridge/host/threads/host_shared.hpp"
@@ -37,7 +38,8 @@ class FitWorker {
   void publish(const FitOutput& output);
   void publish_revisions();
   void publish_figures();
-  void report_again(std::span<const std::uint32_t> sequences);
+  void report_again(std::span<const std::uint32_t> sequences, FitOutput::Kind kind);
+  void report_distances();
 
   FitStream stream_;
   StreamLosses losses_;
@@ -45,6 +47,8 @@ class FitWorker {
   LatencyHistogram latency_;
   std::vector<std::uint32_t> stored_sequences_;  ///< rising; never grows beyond what was reserved
   RecentAlarms alarms_;
+  DistanceSweep sweep_;
+  std::uint32_t revision_ = 0;  ///< of the fit, when its figures were published last
   std::uint32_t events_since_figures_ = 0;
   Clock::time_point taken_at_{};  ///< when the event under way came out of the ring
 };

@@ -138,12 +138,13 @@ void Publication::take(const FitOutput& output) {
       return;
     case FitOutput::Kind::given_up:
       return tally_.give_up(verdict.sequence);
+    case FitOutput::Kind::followed:
     case FitOutput::Kind::judged:
     case FitOutput::Kind::judged_last:
       break;
   }
   tally_.accept(verdict);
-  if (feed_ != nullptr) feed_->judged(verdict);
+  if (feed_ != nullptr) output.kind == FitOutput::Kind::followed ? feed_->followed(verdict) : feed_->judged(verdict);
   if (verdict.sequence >= last_.sequence) last_ = verdict;
   if (output.kind == FitOutput::Kind::judged_last) tally_.give_up(verdict.sequence);
 }

@@ -32,6 +32,7 @@ struct FitOutput {
   enum class Kind : std::uint8_t {
     judged,       ///< `verdict` is a first one or a revision
     judged_last,  ///< the same, and no revision of it will come: the point has no place in the fit
+    followed,     ///< `verdict` is in state and action what was told before; its distance has gone on with the pose
     given_up,     ///< no revision will come of the point with the sequence of `verdict`, whose rest means nothing
     forgotten,    ///< all points so far are forgotten; `verdict` means nothing
   };

@@ -85,6 +85,45 @@ TEST(PointFeed, RemembersWhatAPointWasJudgedBefore) {
   EXPECT_FLOAT_EQ(history[1].distance, 0.2F);
 }
 
+/// The same with a tolerance.
+Verdict within(std::uint32_t sequence, double distance, double tolerance) {
+  Verdict made = judged_at(sequence, distance);
+  made.tolerance_mm = tolerance;
+  return made;
+}
+
+TEST(PointFeed, ADistanceThatGoesOnWithThePoseIsToldWhereItLooksAnother) {
+  PointFeed feed(100, 1000);
+  for (std::uint32_t sequence = 1; sequence <= 9; ++sequence) feed.judged(within(sequence, 0.1, 0.64));
+  FeedReader reader;
+  reader.read_all(feed);
+  feed.followed(within(3, 0.109, 0.64));  // less than a 64th of the tolerance
+  feed.followed(within(4, 0.111, 0.64));
+  feed.followed(within(77, 0.5, 0.64));  // nobody knows it
+  reader.read_all(feed);
+  EXPECT_EQ(reader.rows, 10U);
+  EXPECT_FLOAT_EQ(reader.distances().at(3), 0.1F);
+  EXPECT_FLOAT_EQ(reader.distances().at(4), 0.111F);
+  // At rest it is told to the last digit.
+  feed.judged(within(3, 0.109, 0.64));
+  reader.read_all(feed);
+  EXPECT_FLOAT_EQ(reader.distances().at(3), 0.109F);
+}
+
+TEST(PointFeed, WhatAPointWasJudgedIsNotPushedOutByItsDistances) {
+  PointFeed feed(100, 1000);
+  feed.judged(judged_at(7, 0.1));
+  for (int step = 1; step <= 50; ++step) feed.followed(judged_at(7, 0.1 + 0.1 * step));
+  feed.judged(judged_at(7, 5.1, PointState::out));
+  for (int step = 1; step <= 50; ++step) feed.followed(judged_at(7, 5.1 + 0.1 * step, PointState::out));
+  std::array<FedVerdict, 9> history;
+  ASSERT_EQ(feed.history(7, history), 4U);
+  EXPECT_FLOAT_EQ(history[0].distance, 10.1F);
+  EXPECT_EQ(history[1].state, PointState::out);
+  EXPECT_FLOAT_EQ(history[1].distance, 5.1F);
+  EXPECT_FLOAT_EQ(history[3].distance, 0.1F);
+}
+
 TEST(PointFeed, TheOldestPointMakesRoom) {
   PointFeed feed(4, 100);
   FeedReader reader;
@@ -126,8 +165,12 @@ TEST(PointFeed, AnyReaderHasInTheEndWhatWasWritten) {
       } else if (what < 60) {
         const auto sequence = static_cast<std::uint32_t>(1 + random() % 40);
         const double distance = static_cast<double>(random() % 1000) * 0.01;
-        feed.judged(judged_at(sequence, distance));
-        if (!truth.contains(sequence)) order.push_back(sequence);
+        const bool known = truth.contains(sequence);
+        if (known && what < 30)
+          feed.followed(judged_at(sequence, distance));
+        else
+          feed.judged(judged_at(sequence, distance));
+        if (!known) order.push_back(sequence);
         truth[sequence] = static_cast<float>(distance);
         if (order.size() > 16) {
           truth.erase(order.front());

@@ -112,6 +112,28 @@ TEST(ReportBlade, DefectsOfThePageHoldEveryPointThatIsOut) {
   EXPECT_TRUE(says(html_report(result), "<b>D1</b>"));
 }
 
+/// Rows of the table of defects on the first page.
+std::size_t first_rows(const Result& result) {
+  const std::string page = html_report(result);
+  const std::string first = page.substr(0, page.find("<h2>Map of the blade</h2>"));
+  std::size_t rows = 0;
+  for (std::size_t at = first.find("<b>D"); at != std::string::npos; at = first.find("<b>D", at + 1)) ++rows;
+  return rows;
+}
+
+TEST(ReportBlade, TheMapKeepsItsPlaceOnTheFirstPage) {
+  Result result = blade_result();
+  const BladeDefect defect = result.drawing->defects.front();
+  result.drawing->defects.assign(30, defect);
+  result.verdict.reasons.clear();
+  const std::size_t rows = first_rows(result);
+  EXPECT_GE(rows, 4U);
+  EXPECT_LE(rows, 8U);
+  result.record->identity.fields.assign(8, {"name", "text"});  // four rows
+  EXPECT_EQ(first_rows(result), rows - 4 < 3 ? 3U : rows - 4);
+  EXPECT_TRUE(says(html_report(result), "<h2>More defects</h2>"));
+}
+
 /// Where each element of a QIF 3.0 document stands, and how often: by the standard's Results, Features and
 /// Characteristics models.
 TEST(Qif, HasTheStructureOfTheStandard) {

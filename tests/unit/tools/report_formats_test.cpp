@@ -124,6 +124,15 @@ TEST(ReportFormats, HeadlineFollowsTheVerdict) {
   EXPECT_TRUE(contains(session.page(), "Out of tolerance: no pose brings all points within their tolerances"));
 }
 
+TEST(ReportFormats, UndecidedPointsAreCountedWhereTheyLie) {
+  const std::vector<SessionPoint> points = {{1, "rest", 0.01, "in", "none"},
+                                            {2, "leading_edge", 0.0099, "undecided", "none"}};
+  const std::string page = SessionFolder(points).page();
+  EXPECT_TRUE(contains(page, "none is out. 1 point undecided.")) << page.substr(page.find("Leading edge: "), 200);
+  const std::string row = page.substr(page.find("<tr><td>Leading edge</td>"));
+  EXPECT_TRUE(contains(row.substr(0, row.find("</tr>")), "<td>0</td><td>0</td><td>1</td>")) << row.substr(0, 300);
+}
+
 TEST(ReportFormats, SessionsOfOnePointAndOfManyPatchesAreDrawn) {
   const std::vector<SessionPoint> one = {{1, "rest", 0.0, "in", "none"}};
   EXPECT_EQ(nesting_fault(SessionFolder(one).page()), "");

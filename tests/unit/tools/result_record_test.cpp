@@ -60,6 +60,19 @@ TEST(ResultRecord, EveryFormatSaysTheSameOfAFitAndOfItsFiles) {
   }
 }
 
+TEST(ResultRecord, ItsFilesAreSummedUpWithoutWhatTheyDoNotHold) {
+  for (const FitPlan& plan : all_kinds()) {
+    const Result made = fitted(plan);
+    Result read = parse_result("result.json", result_json(made));
+    read.points = parse_verdicts("verdicts.csv", verdicts_csv(made.points));
+    ASSERT_FALSE(read.details);
+    const std::string whole = operator_summary(made), told = operator_summary(read);
+    EXPECT_EQ(told.substr(0, told.find('\n')), whole.substr(0, whole.find('\n')));
+    EXPECT_NE(told.find(fmt::format(" of {} points, rms ", made.points.size())), std::string::npos) << told;
+    EXPECT_EQ(told.find("degrees of freedom determined"), std::string::npos) << told;
+  }
+}
+
 TEST(ResultRecord, FormatsAreFoundByTheirNames) {
   for (const ReportFormat& format : kFormats) EXPECT_EQ(&format_of(format.name), &format);
   EXPECT_THROW(static_cast<void>(format_of("docx")), ToolError);

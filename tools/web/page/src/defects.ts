@@ -13,7 +13,7 @@ const placeOf = (defect: Defect): string => {
 
 function rowOf(defect: Defect, go: (sequence: number) => void): HTMLElement {
   const look = defect.distance >= 0 ? "cut" : "weld", action = defect.action === "none" ? "beyond the edge" : defect.action.toUpperCase();
-  const what = make("strong", { textContent: `${kSigns[look]} ${action} ${mm(Math.abs(defect.distance), 2)}` });
+  const what = make("strong", { textContent: `${kSigns[look]} ${action} ${mm(Math.abs(defect.distance))}` });
   what.style.color = kColours[look];
   const points = `${defect.points} point${defect.points === 1 ? "" : "s"}`;
   const rest = [defect.side || defect.region, points, ...(defect.points > 1 ? [`${defect.length.toFixed(1)} mm long`] : [])];

@@ -237,7 +237,7 @@ class Page {
 
   private addLegend(): void {
     const scale = make("span", { className: "scale", textContent: "within −tolerance … 0 … +tolerance" });
-    const rows = kLooks.slice(1, 5).map((look) => {
+    const rows = kLooks.slice(1).map((look) => {
       const sign = make("span", { textContent: kSigns[look], className: "sign" });
       sign.style.color = kColours[look];
       return make("span", {}, [sign, ` ${kLookWords[look]}`]);
