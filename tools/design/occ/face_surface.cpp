@@ -192,19 +192,21 @@ void measure(const Geom_Surface& surface, const FaceBox& box, double scale, Face
   result.share = whole > 0 ? result.area / whole : 1;
 }
 
+/// Moves what was found in the face's own frame to where the file puts it, by a factor `scale` larger.
+void move_to(const Eigen::Affine3d& place, double scale, FaceSurface& found) {
+  for (Eigen::Vector3d& point : found.surface.control_points) point = place * point;
+  found.area *= scale * scale;
+  found.approximated *= scale;
+  found.trims_off *= scale;
+  if (place.linear().determinant() < 0) found.surface.reversed = !found.surface.reversed;
+}
+
 bool over_degree(const Geom_BSplineSurface& surface) {
   return std::max(surface.UDegree(), surface.VDegree()) > static_cast<int>(kMaxDegree);
 }
 
-}  // namespace
-
-std::string kind_of(const CadFace& face) {
-  const std::string_view type = basis_of(face.face)->DynamicType()->Name();
-  const auto found = std::ranges::find(kKinds, type, &std::pair<std::string_view, const char*>::first);
-  return found != kKinds.end() ? found->second : std::string(type);
-}
-
-FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
+/// The surface as OpenCASCADE places the face.
+FaceSurface surface_in_frame(const CadFace& face, double tolerance_mm) {
   TopLoc_Location place;
   BRep_Tool::Surface(face.face, place);
   const Handle(Geom_Surface) basis = basis_of(face.face);
@@ -230,10 +232,26 @@ FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
   measure(*spline, trimmed.spline_box, trimmed.scale, result);
   result.trims_off = loops.off_mm;
   result.trims_fault = std::move(loops.fault);
-  // gp_Trsf::IsNegative looks at the scale alone, which a mirror that is given by its axes leaves at 1.
-  const bool mirrored = place.Transformation().HVectorialPart().Determinant() < 0;
+  // Neither the scale nor the axes alone tell a mirror.
+  const bool mirrored = place.Transformation().VectorialPart().Determinant() < 0;
   result.surface.reversed = (face.face.Orientation() == TopAbs_REVERSED) != mirrored;
   return result;
+}
+
+}  // namespace
+
+std::string kind_of(const CadFace& face) {
+  const std::string_view type = basis_of(face.face)->DynamicType()->Name();
+  const auto found = std::ranges::find(kKinds, type, &std::pair<std::string_view, const char*>::first);
+  return found != kKinds.end() ? found->second : std::string(type);
+}
+
+FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
+  if (face.place.matrix().isIdentity(0)) return surface_in_frame(face, tolerance_mm);
+  const double scale = std::cbrt(std::abs(face.place.linear().determinant()));
+  FaceSurface found = surface_in_frame(face, tolerance_mm / scale);
+  move_to(face.place, scale, found);
+  return found;
 }
 
 }  // namespace bladefit
