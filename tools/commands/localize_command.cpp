@@ -29,7 +29,8 @@ namespace {
 
 struct LocalizeFlags {
   Volume volume;
-  std::string design, points, subset, json, config, starts, report;
+  std::vector<std::string> designs;
+  std::string points, subset, json, config, starts, report;
   FitSettings fit;
 };
 
@@ -84,7 +85,7 @@ std::vector<ProbePoint> read_points(const LocalizeFlags& flags, FitPlan& plan) {
 /// What is written must not take the place of anything it is made from.
 void check_output_file(const std::string& output, const LocalizeFlags& flags, const FitSettings& settings) {
   if (output == "-") return;
-  refuse_overwriting(output, "design", flags.design);
+  for (const std::string& design : flags.designs) refuse_overwriting(output, "design", design);
   refuse_overwriting(output, "points", flags.points);
   refuse_overwriting(output, "subset", flags.subset);
   refuse_overwriting(output, "settings", flags.config);
@@ -108,9 +109,10 @@ void write_report(const LocalizeFlags& flags, const FitPlan& plan, const DesignI
   if (!flags.config.empty()) {
     if (const Failure error = load_report_identity(flags.config, identity)) throw ToolError(error);
   }
-  result.record = report_record_of(
-      identity,
-      {{"design", flags.design}, {"points", flags.points}, {"subset", flags.subset}, {"settings", flags.config}});
+  FileRoles inputs;
+  for (const std::string& file : flags.designs) inputs.emplace_back("design", file);
+  inputs.insert(inputs.end(), {{"points", flags.points}, {"subset", flags.subset}, {"settings", flags.config}});
+  result.record = report_record_of(identity, inputs);
   result.record->begun = std::move(begun);
   result.record->ended = result.written = utc_now();
   result.settings = named_settings(settings_text(plan.localizer, 0));
@@ -129,10 +131,11 @@ int localize(const LocalizeFlags& flags) {
   const bool json_on_stdout = flags.json == "-";
   std::FILE* words = json_on_stdout ? stderr : stdout;
   StepClock clock(flags.volume, words);
-  const LoadedDesign loaded = load_design(flags.design, design_choice_of(settings));
+  const LoadedDesign loaded = load_design(
+      std::vector<std::filesystem::path>(flags.designs.begin(), flags.designs.end()), design_choice_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
-    throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));
+    throw ToolError(fmt::format("{}: {}", flags.designs.front(), status_text(status)));
   FitPlan plan = plan_fit(settings, design);
   clock.done("design loaded");
   if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
@@ -167,7 +170,11 @@ void add_localize_command(CLI::App& app, int& exit_code) {
       "  bladefit localize --design blade.igs --points points.csv --leading-edge u:0.4:0.6 --tolerance 0.1mm\n"
       "  bladefit localize --design blade.bfd --points - --mode min_tolerance --leading-edge auto:5mm --json - "
       "< points.csv");
-  command->add_option("--design", flags->design, "design: .igs .iges .stp .step, or .bfd from `bladefit compile`")
+  command
+      ->add_option(
+          "--design", flags->designs,
+          "design: .igs .iges .stp .step, or .bfd from `bladefit compile`; repeat it for a blade in several files")
+      ->allow_extra_args(false)
       ->required();
   command
       ->add_option("--points", flags->points,

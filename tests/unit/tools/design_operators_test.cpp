@@ -66,10 +66,11 @@ std::string operator_of(const Affine3d& moves, bool complex = false) {
                       testing::real_text(origin.y()), testing::real_text(origin.z()));
   const std::string own = fmt::format("#70,#71,#73,{}", testing::real_text(scale));
   if (!complex) return text + fmt::format("#74=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',{},#72);\n", own);
-  return text + fmt::format(
-                    "#74=(CARTESIAN_TRANSFORMATION_OPERATOR({})\n CARTESIAN_TRANSFORMATION_OPERATOR_3D (#72)"
-                    "FUNCTIONALLY_DEFINED_TRANSFORMATION('','')GEOMETRIC_REPRESENTATION_ITEM()REPRESENTATION_ITEM(''));\n",
-                    own);
+  return text +
+         fmt::format(
+             "#74=(CARTESIAN_TRANSFORMATION_OPERATOR({})\n CARTESIAN_TRANSFORMATION_OPERATOR_3D (#72)"
+             "FUNCTIONALLY_DEFINED_TRANSFORMATION('','')GEOMETRIC_REPRESENTATION_ITEM()REPRESENTATION_ITEM(''));\n",
+             own);
 }
 
 constexpr const char* kOwnFrame =
@@ -87,7 +88,8 @@ std::string placed_sheet(const std::string& statements, const std::string& units
 constexpr const char* kMappedSheet =
     "#57=REPRESENTATION_MAP(#55,#29);\n#41=MAPPED_ITEM('',#57,#74);\n#40=SHAPE_REPRESENTATION('',(#41,#55),#1);\n";
 
-/// The sheet as a component of another product, placed by the operator #74. `reversed`: told from the whole to the part.
+/// The sheet as a component of another product, placed by the operator #74. `reversed`: told from the whole to the
+/// part.
 std::string component(bool reversed = false) {
   return fmt::format(
       "#30=SHAPE_DEFINITION_REPRESENTATION(#26,#29);\n#80=PRODUCT('whole','whole','',(#21));\n"
@@ -126,9 +128,14 @@ std::vector<Affine3d> similarities() {
   Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
   mirror(1, 1) = -1;
   const Vector3d shift(5, -6, 7);
-  return {affine(turn, shift),         affine(mirror, shift),       affine(turn * mirror, shift),
-          affine(2.5 * turn, shift),   affine(0.25 * mirror, shift), affine(3 * mirror * turn, Vector3d::Zero()),
-          affine(-Eigen::Matrix3d::Identity(), Vector3d::Zero()),   affine(2 * Eigen::Matrix3d::Identity(), Vector3d::Zero()),
+  return {affine(turn, shift),
+          affine(mirror, shift),
+          affine(turn * mirror, shift),
+          affine(2.5 * turn, shift),
+          affine(0.25 * mirror, shift),
+          affine(3 * mirror * turn, Vector3d::Zero()),
+          affine(-Eigen::Matrix3d::Identity(), Vector3d::Zero()),
+          affine(2 * Eigen::Matrix3d::Identity(), Vector3d::Zero()),
           Affine3d::Identity()};
 }
 
@@ -161,11 +168,11 @@ TEST(DesignOperators, ARelationToldTheOtherWayRoundIsUndone) {
 
 TEST(DesignOperators, OneMirrorInsideOfAnotherFollowsIt) {
   const Affine3d moves = similarities()[2], again = moves * moves;
-  const DesignFile design = read_placed(
-      placed_sheet(operator_of(moves) +
-                   "#57=REPRESENTATION_MAP(#55,#29);\n#42=MAPPED_ITEM('',#57,#74);\n#43=SHAPE_REPRESENTATION('',(#42,#55),"
-                   "#1);\n#44=REPRESENTATION_MAP(#55,#43);\n#41=MAPPED_ITEM('',#44,#74);\n"
-                   "#40=SHAPE_REPRESENTATION('',(#41,#55),#1);\n"));
+  const DesignFile design = read_placed(placed_sheet(
+      operator_of(moves) +
+      "#57=REPRESENTATION_MAP(#55,#29);\n#42=MAPPED_ITEM('',#57,#74);\n#43=SHAPE_REPRESENTATION('',(#42,#55),"
+      "#1);\n#44=REPRESENTATION_MAP(#55,#43);\n#41=MAPPED_ITEM('',#44,#74);\n"
+      "#40=SHAPE_REPRESENTATION('',(#41,#55),#1);\n"));
   ASSERT_EQ(design.surfaces.size(), 1U);
   expect_sheet(design.surfaces[0], again);
 }
@@ -203,7 +210,8 @@ TEST(DesignOperators, AxesThatAreNotSquareAreMadeSoFromTheThirdOn) {
 }
 
 TEST(DesignOperators, WhatCannotBeToldIsRefusedWithAWayOut) {
-  const std::string axes = direction(70, {-1, 0, 0}) + direction(72, {0, 0, 1}) + "#73=CARTESIAN_POINT('',(0.,0.,0.));\n";
+  const std::string axes =
+      direction(70, {-1, 0, 0}) + direction(72, {0, 0, 1}) + "#73=CARTESIAN_POINT('',(0.,0.,0.));\n";
   const auto mapped = [&](const std::string& own) {
     return refusal_of_place(
         placed_sheet(axes + "#74=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','',''," + own + ");\n" + kMappedSheet));
@@ -212,12 +220,13 @@ TEST(DesignOperators, WhatCannotBeToldIsRefusedWithAWayOut) {
     EXPECT_NE(said.find(what), std::string::npos) << said;
     EXPECT_NE(said.find("export the blade as one part, not as an assembly"), std::string::npos) << said;
   };
-  names(mapped("#70,$,#73,1.,#72"), "#74: where a part stands cannot be told of the operator: it is mirrored only because");
+  names(mapped("#70,$,#73,1.,#72"),
+        "#74: where a part stands cannot be told of the operator: it is mirrored only because");
   names(mapped("#70,#70,#73,1.,#72"), "its axes are parallel");
   names(mapped("#70,$,#73,0.,#72"), "its scale is 0");
   const std::string elsewhere = replaced(kMappedSheet, "REPRESENTATION_MAP(#55", "REPRESENTATION_MAP(#56");
   names(refusal_of_place(placed_sheet(operator_of(similarities()[1]) + "#49=CARTESIAN_POINT('',(1.,0.,0.));\n" +
-                                "#56=AXIS2_PLACEMENT_3D('',#49,#53,#51);\n" + elsewhere)),
+                                      "#56=AXIS2_PLACEMENT_3D('',#49,#53,#51);\n" + elsewhere)),
         "#41: an operator places a part from axes that are not its own");
   names(refusal_of_place(component_file("#74=ITEM_DEFINED_TRANSFORMATION('','',#50,#55);\n")),
         "#88: where a part stands is given in a way that is not read");
@@ -241,9 +250,10 @@ std::string placed_body(const Affine3d& moves, const ScratchFolder& folder) {
   std::smatch in;
   EXPECT_TRUE(std::regex_search(text, in, context));
   const std::string whole = fmt::format("SHAPE_DEFINITION_REPRESENTATION({},#9040);\n", found[1].str());
-  std::string mapping = fmt::format("{}{}#57=REPRESENTATION_MAP(#55,{});\n#41=MAPPED_ITEM('',#57,#74);\n"
-                                    "#40=SHAPE_REPRESENTATION('',(#41,#55),{});\n",
-                                    kOwnFrame, operator_of(moves), found[2].str(), in[1].str());
+  std::string mapping = fmt::format(
+      "{}{}#57=REPRESENTATION_MAP(#55,{});\n#41=MAPPED_ITEM('',#57,#74);\n"
+      "#40=SHAPE_REPRESENTATION('',(#41,#55),{});\n",
+      kOwnFrame, operator_of(moves), found[2].str(), in[1].str());
   mapping = std::regex_replace(mapping, std::regex("#(4[01]|5[0137]|55|7[0-4])(?![0-9])"), "#90$1");
   // References to the body's own instances keep their numbers: they are longer, or not among these.
   return replaced(text, found[0].str(), whole + mapping);

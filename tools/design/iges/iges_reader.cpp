@@ -46,7 +46,8 @@ constexpr std::array<int, 10> kPrimitiveTypes = {150, 152, 154, 156, 158, 160, 1
 /// A face of the design should come of it.
 bool holds_faces(const CleanIges& iges, std::size_t index) {
   const int type = iges.entities[index].type;
-  if (is_surface(type) || type == kSolidOfFaces || std::ranges::find(kPrimitiveTypes, type) != kPrimitiveTypes.end()) return true;
+  if (is_surface(type) || type == kSolidOfFaces || std::ranges::find(kPrimitiveTypes, type) != kPrimitiveTypes.end())
+    return true;
   if (std::ranges::find(kHolderTypes, type) == kHolderTypes.end()) return false;
   return std::ranges::any_of(iges_parts(iges.entities, iges.parameters, index), [&](std::size_t part) {
     return is_surface(iges.entities[part].type) || iges.entities[part].type == kSolidOfFaces;
@@ -109,7 +110,8 @@ std::string list_types(const CleanIges& iges) {
 }
 
 /// Names the faces by their entities, leaves out hidden ones, and moves those of solids to their place.
-void name_faces(const CleanIges& iges, const IgesSolidPlaces& places, const IGESData_IGESModel& model, const FaceSources& sources, CadFaces& read) {
+void name_faces(const CleanIges& iges, const IgesSolidPlaces& places, const IGESData_IGESModel& model,
+                const FaceSources& sources, CadFaces& read) {
   std::vector<CadFace> shown;
   for (CadFace& face : read.faces) {
     const auto source = sources.find(key_of(face.face));
@@ -185,6 +187,7 @@ DesignFile read_iges(const std::filesystem::path& path) {
   const CleanIges iges = clean_iges_text(content, file);
   DesignFile design;
   design.unit = shown_unit(iges.global.unit);
+  design.file_unit_mm = iges.global.unit.mm;
   design.warnings = iges.warnings;
   with_cad_library(file, [&] {
     append_surfaces(read_faces(iges, file), design);

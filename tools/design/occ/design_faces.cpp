@@ -23,7 +23,8 @@ double size_of(const CadFaces& read) {
     BRepBndLib::Add(face.face, box, Standard_False);
     if (box.IsVoid()) continue;
     const gp_Pnt low = box.CornerMin(), high = box.CornerMax();
-    const Eigen::AlignedBox3d own(Eigen::Vector3d(low.X(), low.Y(), low.Z()), Eigen::Vector3d(high.X(), high.Y(), high.Z()));
+    const Eigen::AlignedBox3d own(Eigen::Vector3d(low.X(), low.Y(), low.Z()),
+                                  Eigen::Vector3d(high.X(), high.Y(), high.Z()));
     whole.extend(own.transformed(face.place));
   }
   return whole.isEmpty() ? 0.0 : whole.diagonal().norm();

@@ -23,8 +23,8 @@
 namespace bladefit {
 namespace {
 
-/// Areas are taken from this many places in each direction.
-constexpr int kAreaGrid = 32;
+/// Areas are taken from this many places in each direction, and of trimmed faces along so many lines between two.
+constexpr int kAreaGrid = 32, kAreaLines = 8;
 /// An approximation is compared at this many places in each direction.
 constexpr int kErrorGrid = 25;
 constexpr int kApproximationDegree = 8, kApproximationSpans = 400;
@@ -175,18 +175,35 @@ NurbsSurface cut_to(NurbsSurface surface, const FaceBox& box) {
   return part_of(surface, part);
 }
 
-/// Area of the face, and its share of the box.
+/// Length of the part of from..to that lies inside of crossings_at().
+double length_inside(const std::vector<double>& crossings, double from, double to) {
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+    length += std::max(0.0, std::min(to, crossings[k + 1]) - std::max(from, crossings[k]));
+  }
+  return length;
+}
+
+/// Area of the face, and its share of the box: of cells whose part inside of the loops is taken along lines.
 void measure(const Geom_Surface& surface, const FaceBox& box, double scale, FaceSurface& result) {
   double whole = 0;
   const double du = (box.u_max - box.u_min) / kAreaGrid, dv = (box.v_max - box.v_min) / kAreaGrid;
-  for (int i = 0; i < kAreaGrid; ++i) {
-    for (int j = 0; j < kAreaGrid; ++j) {
+  for (int j = 0; j < kAreaGrid; ++j) {
+    std::array<std::vector<double>, kAreaLines> lines;
+    for (int k = 0; k < kAreaLines; ++k) {
+      lines[static_cast<std::size_t>(k)] = crossings_at(result.surface.trims, (j + (k + 0.5) / kAreaLines) / kAreaGrid);
+    }
+    for (int i = 0; i < kAreaGrid; ++i) {
       gp_Pnt point;
       gp_Vec along_u, along_v;
       surface.D1(box.u_min + (i + 0.5) * du, box.v_min + (j + 0.5) * dv, point, along_u, along_v);
       const double area = scale * scale * along_u.Crossed(along_v).Magnitude() * du * dv;
+      double inside = 0;
+      for (const auto& line : lines) {
+        inside += kAreaGrid * length_inside(line, i / double{kAreaGrid}, (i + 1) / double{kAreaGrid}) / kAreaLines;
+      }
       whole += area;
-      if (inside_loops(result.surface.trims, (i + 0.5) / kAreaGrid, (j + 0.5) / kAreaGrid)) result.area += area;
+      result.area += area * (result.surface.trims.empty() ? 1 : inside);
     }
   }
   result.share = whole > 0 ? result.area / whole : 1;

@@ -95,12 +95,14 @@ StepOperator step_operator(const StepGeom_CartesianTransformationOperator3d& ope
 }
 
 std::string with_plain_operators(std::string text) {
-  constexpr std::string_view kGeneral = "CARTESIAN_TRANSFORMATION_OPERATOR", kSpatial = "CARTESIAN_TRANSFORMATION_OPERATOR_3D";
+  constexpr std::string_view kGeneral = "CARTESIAN_TRANSFORMATION_OPERATOR",
+                             kSpatial = "CARTESIAN_TRANSFORMATION_OPERATOR_3D";
   for (std::size_t at = text.find(kSpatial); at != std::string::npos; at = text.find(kSpatial, at + 1)) {
     const std::optional<Statement> found = complex_statement(text, at);
     if (!found) continue;
     const std::string_view statement = std::string_view(text).substr(found->first, found->end - found->first);
-    const std::optional<std::string> general = arguments_of(statement, kGeneral), third = arguments_of(statement, kSpatial);
+    const std::optional<std::string> general = arguments_of(statement, kGeneral),
+                                     third = arguments_of(statement, kSpatial);
     if (!general || !third) continue;
     text.replace(found->first, found->end - found->first,
                  fmt::format("{}('','','',{},{})", kSpatial, *general, *third));

@@ -7,8 +7,9 @@
 
 namespace bladefit {
 
-/// What a CARTESIAN_TRANSFORMATION_OPERATOR_3D does with a point, in the file's unit of length (ISO 10303-42, base_axis):
-/// turned, mirrored where its axes are left-handed, made larger by its scale, then shifted by its local origin.
+/// What a CARTESIAN_TRANSFORMATION_OPERATOR_3D does with a point, in the file's unit of length (ISO 10303-42,
+/// base_axis): turned, mirrored where its axes are left-handed, made larger by its scale, then shifted by its local
+/// origin.
 struct StepOperator {
   Eigen::Affine3d moves = Eigen::Affine3d::Identity();
   std::string fault;  ///< why it cannot be told; empty = it can

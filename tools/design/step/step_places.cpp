@@ -113,8 +113,7 @@ std::string StepPlaces::label_of(const Handle(Standard_Transient) & entity) cons
 }
 
 void StepPlaces::refuse(const std::string& label, const std::string& what) const {
-  throw ToolError(
-      fmt::format("{}: {}: {}; export the blade as one part, not as an assembly", file_, label, what));
+  throw ToolError(fmt::format("{}: {}: {}; export the blade as one part, not as an assembly", file_, label, what));
 }
 
 std::optional<Eigen::Affine3d> StepPlaces::meaning_of(const gp_Trsf& shift) const {

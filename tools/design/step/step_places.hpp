@@ -17,8 +17,8 @@ namespace bladefit {
 /// means, wherever it stands in the places of a face.
 class StepPlaces {
  public:
-  /// Turns the operators of `model` into shifts. Throws ToolError where one cannot be told, or where a part is placed by
-  /// what OpenCASCADE does not know and leaves out.
+  /// Turns the operators of `model` into shifts. Throws ToolError where one cannot be told, or where a part is placed
+  /// by what OpenCASCADE does not know and leaves out.
   StepPlaces(const Handle(StepData_StepModel) & model, const std::string& file);
 
   /// Moves each face that an operator places to its own frame, with CadFace::place to where it stands. Throws ToolError

@@ -127,6 +127,7 @@ DesignFile read_model(std::string text, const std::string& file) {
   const LengthUnit unit = read_step_unit(*model, file);
   DesignFile design;
   design.unit = shown_unit(unit);
+  design.file_unit_mm = unit.mm;
   if (const std::string note = shown_unit_note(unit); !note.empty()) design.warnings.push_back(note);
   reader.TransferRoots();
   CadFaces read;
