@@ -89,15 +89,29 @@ class Sheet {
   Eigen::AlignedBox3d box_;
 };
 
-/// The weights of the corners at a place in the plane of a triangle; nothing outside of it.
+/// The weights of the corners at a place in the plane of a triangle, inside or not; nothing where it has no area.
 std::optional<Vector3d> weights_at(const SheetTriangle& triangle, const Vector3d& place) {
   const Vector3d ab = triangle.corner[1] - triangle.corner[0], ac = triangle.corner[2] - triangle.corner[0],
                  to = place - triangle.corner[0], cross = ab.cross(ac);
   const double square = cross.squaredNorm();
   if (square == 0) return std::nullopt;
   const double b = to.cross(ac).dot(cross) / square, c = ab.cross(to).dot(cross) / square;
-  if (b < 0 || c < 0 || b + c > 1) return std::nullopt;
   return Vector3d(1 - b - c, b, c);
+}
+
+/// A sheet goes on by `depth_mm` to both sides of a plane through a place in its facet: it does not end there.
+bool goes_through(const Sheet& sheet, const SheetTriangle& facet, const Vector3d& place, const Vector3d& plane_normal,
+                  double depth_mm) {
+  constexpr double kLeastSine = 0.01;
+  const Vector3d normal = facet.normal(), along = plane_normal - plane_normal.dot(normal) * normal;
+  if (along.norm() < kLeastSine) return false;
+  for (const int side : {1, -1}) {
+    const std::optional<Vector3d> weights = weights_at(facet, place + side * depth_mm / along.squaredNorm() * along);
+    if (!weights) return false;
+    const Vector2d at = (*weights)[0] * facet.at[0] + (*weights)[1] * facet.at[1] + (*weights)[2] * facet.at[2];
+    if (at.minCoeff() < 0 || at.maxCoeff() > 1 || !sheet.has(at)) return false;
+  }
+  return true;
 }
 
 /// Where side k of a triangle passes through another by more than `depth_mm` within both trims.
@@ -109,15 +123,14 @@ std::optional<Vector3d> side_through(const Sheet& own, const SheetTriangle& tria
   const double share = before / (before - after);
   const Vector3d place = from + share * (to - from);
   const std::optional<Vector3d> weights = weights_at(facet, place);
-  if (!weights) return std::nullopt;
+  if (!weights || weights->minCoeff() < 0) return std::nullopt;
   const double depth = depth_mm + kSags * (own.sag(triangle) + other.sag(facet)),
                step = depth / std::abs(after - before);
   if (share - step <= 0 || share + step >= 1) return std::nullopt;
   const Vector2d &start = triangle.at[k], along = triangle.at[(k + 1) % 3] - start;
-  const Vector2d in_other = (*weights)[0] * facet.at[0] + (*weights)[1] * facet.at[1] + (*weights)[2] * facet.at[2];
-  const bool trimmed_off =
-      !own.has(start + (share - step) * along) || !own.has(start + (share + step) * along) || !other.has(in_other);
-  return trimmed_off ? std::nullopt : std::optional(place);
+  const bool own_goes_on = own.has(start + (share - step) * along) && own.has(start + (share + step) * along);
+  return own_goes_on && goes_through(other, facet, place, triangle.normal(), depth) ? std::optional(place)
+                                                                                    : std::nullopt;
 }
 
 /// Grows by the places where two triangles pass through each other.
