@@ -47,7 +47,7 @@ surfaces of revolution become B-splines exactly, offsets and degrees over 9 with
 of the design; that is told. A face is cut at the (u, v) box of its trim; a trim inside of the box
 becomes loops of straight pieces in (u, v), within 1e-6 of the size of the curves of the file, beyond
 which there are no feet. Trimmed planes beside other faces, which close a solid model at root and tip,
-are left out unless they are named with --face; that is told. Patches have the numbers of the faces in the file (of faces named PATCH1, PATCH2,
+are left out, up to a fifth of the area, unless --face names them; that is told. Patches have the numbers of the faces in the file (of faces named PATCH1, PATCH2,
 ... of a STEP file those), 0 first, so that STEP and IGES of the same system agree. --list shows all.
 
 One blade of a whole propeller: --blade N. Surfaces of revolution about the shaft are the hub; what is
