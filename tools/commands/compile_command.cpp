@@ -47,7 +47,7 @@ surfaces of revolution become B-splines exactly, offsets and degrees over 9 with
 of the design; that is told. A face is cut at the (u, v) box of its trim; a trim inside of the box
 becomes loops of straight pieces in (u, v), within 1e-6 of the size of the curves of the file, beyond
 which there are no feet. Trimmed planes beside other faces, which close a solid model at root and tip,
-are left out unless they are named with --face; that is told. Patches have the numbers of the faces in the file (of faces named PATCH1, PATCH2,
+are left out, up to a fifth of the area, unless --face names them; that is told. Patches have the numbers of the faces in the file (of faces named PATCH1, PATCH2,
 ... of a STEP file those), 0 first, so that STEP and IGES of the same system agree. --list shows all.
 
 One blade of a whole propeller: --blade N. Surfaces of revolution about the shaft are the hub; what is
@@ -232,8 +232,9 @@ void add_compile_command(CLI::App& app, int& exit_code) {
   command->add_option("--axis", options->axis, "Shaft about which --blade counts (default that which the shape tells)")
       ->type_name("x|y|z|x0,y0,z0,i,j,k");
   command->add_flag("--allow-missing", options->allow_missing, "Go on without faces that cannot be read");
-  command->add_flag("--compact", options->compact,
-                    "Write an image at most 20 times as large as its control points (default 40), for flash; the same feet, slower");
+  command->add_flag(
+      "--compact", options->compact,
+      "Write an image at most 20 times as large as its control points (default 40), for flash; the same feet, slower");
   command->add_option("--c-array", options->c_array, "Also write the image as a C99 array, for flash")
       ->type_name("OUT.c");
   command->add_option("--outward", options->outward, "Side away from the material (default auto)")

@@ -31,7 +31,8 @@ namespace {
 
 struct LocalizeFlags {
   Volume volume;
-  std::string design, points, subset, json, config, starts, report;
+  std::vector<std::string> designs;
+  std::string points, subset, json, config, starts, report;
   FitSettings fit;
 };
 
@@ -86,7 +87,7 @@ std::vector<ProbePoint> read_points(const LocalizeFlags& flags, FitPlan& plan) {
 /// What is written must not take the place of anything it is made from.
 void check_output_file(const std::string& output, const LocalizeFlags& flags, const FitSettings& settings) {
   if (output == "-") return;
-  refuse_overwriting(output, "design", flags.design);
+  for (const std::string& design : flags.designs) refuse_overwriting(output, "design", design);
   refuse_overwriting(output, "points", flags.points);
   refuse_overwriting(output, "subset", flags.subset);
   refuse_overwriting(output, "settings", flags.config);
@@ -110,9 +111,10 @@ void write_report(const LocalizeFlags& flags, const FitPlan& plan, const DesignI
   if (!flags.config.empty()) {
     if (const Failure error = load_report_identity(flags.config, identity)) throw ToolError(error);
   }
-  result.record = report_record_of(
-      identity,
-      {{"design", flags.design}, {"points", flags.points}, {"subset", flags.subset}, {"settings", flags.config}});
+  FileRoles inputs;
+  for (const std::string& file : flags.designs) inputs.emplace_back("design", file);
+  inputs.insert(inputs.end(), {{"points", flags.points}, {"subset", flags.subset}, {"settings", flags.config}});
+  result.record = report_record_of(identity, inputs);
   result.record->begun = std::move(begun);
   result.record->ended = result.written = utc_now();
   result.settings = named_settings(settings_text(plan.localizer, 0));
@@ -146,10 +148,11 @@ int localize(const LocalizeFlags& flags) {
   StepClock clock(flags.volume);
   std::optional<ProgressLine> progress(!flags.volume.quiet);
   progress->begin("reading the design");
-  const LoadedDesign loaded = load_design(flags.design, design_choice_of(settings));
+  const LoadedDesign loaded = load_design(
+      std::vector<std::filesystem::path>(flags.designs.begin(), flags.designs.end()), design_choice_of(settings));
   DesignImage design;
   if (const Status status = DesignImage::open(loaded.image, design); status != Status::ok)
-    throw ToolError(fmt::format("{}: {}", flags.design, status_text(status)));
+    throw ToolError(fmt::format("{}: {}", flags.designs.front(), status_text(status)));
   FitPlan plan = plan_fit(settings, design);
   clock.done("design loaded");
   if (!flags.starts.empty()) plan.starts = parse_starts(flags.starts);
@@ -180,8 +183,10 @@ void add_localize_command(CLI::App& app, int& exit_code) {
       "  bladefit localize --design blade.bfd --points - --mode min_tolerance --leading-edge auto:5mm --json - "
       "< points.csv");
   command
-      ->add_option("--design", flags->design,
-                   "design: .igs .iges .stp .step, or .bfd from `bladefit compile`; - reads standard input")
+      ->add_option("--design", flags->designs,
+                   "design: .igs .iges .stp .step, or .bfd from `bladefit compile`; - reads standard input; repeat it "
+                   "for a blade in several files")
+      ->allow_extra_args(false)
       ->required();
   command
       ->add_option("--points", flags->points,

@@ -12,6 +12,9 @@
 namespace bladefit {
 namespace {
 
+/// Trimmed planes of more than this share of a design's area are its sides, no caps that close it.
+constexpr double kLargestCaps = 0.2;
+
 /// Faces that a message lists.
 constexpr std::size_t kListed = 3;
 
@@ -74,15 +77,16 @@ void keep_numbers(DesignFile& design, const std::vector<std::size_t>& numbers) {
 }
 
 void leave_flat_caps(DesignFile& design) {
-  std::vector<bool> kept;
   double left_out = 0, whole = 0;
+  for (const DesignFace& face : design.faces) whole += face.area;
+  std::vector<bool> kept;
   for (std::size_t k = 0; k < design.faces.size(); ++k) {
-    kept.push_back(design.faces[k].kind != "plane" || design.surfaces[k].trims.empty());
-    whole += design.faces[k].area;
-    if (!kept.back()) left_out += design.faces[k].area;
+    const DesignFace& face = design.faces[k];
+    kept.push_back(face.kind != "plane" || design.surfaces[k].trims.empty());
+    if (!kept.back()) left_out += face.area;
   }
   const auto caps = std::ranges::count(kept, false);
-  if (caps == 0 || caps == std::ssize(kept)) return;
+  if (caps == 0 || left_out > kLargestCaps * whole) return;
   design.warnings.push_back(fmt::format(
       "left out, {:.1f} % of the area: {} trimmed plane{}, with which a solid model is closed: points there "
       "are beyond the edge of the blade; choose them with --face",

@@ -24,7 +24,7 @@ void keep_numbers(DesignFile& design, const std::vector<std::size_t>& numbers);
 
 /// Leaves out trimmed planes beside other faces, with a line to the warnings: the root and the tip of a solid model,
 /// which close the blade where it was cut off. With them points beyond that cut would be judged by the cut. Not where
-/// nothing else would be left.
+/// they are more than a fifth of the area: then they are sides of the blade.
 void leave_flat_caps(DesignFile& design);
 
 /// Throws ToolError that lists the faces which could not be read, with their share of the design.

@@ -88,6 +88,11 @@ DesignFile read_designs(const std::vector<std::filesystem::path>& names) {
       throw ToolError(fmt::format("{}: is in {}, but {} in {}; export both in one unit", paths[k].string(),
                                   unit_name(other.unit), paths.front().string(), unit_name(design.unit)));
     }
+    if (other.file_unit_mm != design.file_unit_mm) {
+      design.warnings.push_back(fmt::format("{}: its unit is {:g} mm, that of {} {:g} mm: is one of them wrong?",
+                                            paths[k].string(), other.file_unit_mm, paths.front().string(),
+                                            design.file_unit_mm));
+    }
     const auto append = [](auto& to, auto& from) {
       to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
     };

@@ -27,8 +27,7 @@ std::string beyond_line(const Result& result) {
   return fmt::format(
       "{} up to {} beyond the edge of the design, where there is no surface to cut or weld to: check whether the blade "
       "is longer there, or was probed past the end of the design; then leave them out with --subset or --window\n",
-      points_that(count, "point lies", "points lie"),
-      length_text(result, farthest));
+      points_that(count, "point lies", "points lie"), length_text(result, farthest));
 }
 
 }  // namespace

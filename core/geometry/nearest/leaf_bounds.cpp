@@ -16,7 +16,8 @@ double dot(const HalfFloat (&a)[3], const Vec3& b) {
 
 ValueRange range_of(const ImageBounds& bounds, int k, const Vec3& w, const Vec3& magnitude) {
   const double middle = dot(bounds.derivative[k], w), spread = dot(bounds.spread[k], magnitude);
-  return {from_half_float(bounds.self_low[k]) - middle - spread, from_half_float(bounds.self_high[k]) - middle + spread};
+  return {from_half_float(bounds.self_low[k]) - middle - spread,
+          from_half_float(bounds.self_high[k]) - middle + spread};
 }
 
 }  // namespace

@@ -185,8 +185,8 @@ bool spans_valid(const DesignImage& image) {
 }
 
 bool rectangle_valid(const ImageLeaf& leaf) {
-  return leaf.spare == 0 && leaf.bounds.spare == 0 && leaf.s_min >= 0.0F && leaf.s_min < leaf.s_max && leaf.s_max <= 1.0F && leaf.t_min >= 0.0F &&
-         leaf.t_min < leaf.t_max && leaf.t_max <= 1.0F;
+  return leaf.spare == 0 && leaf.bounds.spare == 0 && leaf.s_min >= 0.0F && leaf.s_min < leaf.s_max &&
+         leaf.s_max <= 1.0F && leaf.t_min >= 0.0F && leaf.t_min < leaf.t_max && leaf.t_max <= 1.0F;
 }
 
 /// The leaves of a span follow each other and cover its area: they are cut by halves, so that areas add up exactly.

@@ -87,16 +87,16 @@ using HalfFloat = std::uint16_t;
   return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(x) << 16U));
 }
 
-/// Bounds of a rectangle of a span about a place c near to its middle: what lets most of them be judged without looking at control
-/// points. Vectors are in the frame of `axis`, whose first row is the normal in the middle. All is rounded to few digits,
-/// so that the bounds hold for what is written here: the axes are a little shorter than 1, so that nothing is farther
-/// apart in them than it is.
-/// First derivatives are along the rectangle's own parameters s, t in 0..1, and across its sides: along the unit
-/// vectors that are perpendicular in the middle to the sides of constant s and of constant t. Their signs are what
-/// counts, so they are taken as such positive multiples that along themselves they stay what they are in the middle:
-/// only how they turn is in their spread. Second derivatives are along a, b, linear in s and t, with Sa = stretch[0] Ss
-/// and Sb = stretch[1] St + stretch[2] Ss, which are orthonormal in the middle: there the Hessian of a squared distance
-/// is near to the unit matrix. Order: s, t, aa, ab, bb, across s, across t.
+/// Bounds of a rectangle of a span about a place c near to its middle: what lets most of them be judged without looking
+/// at control points. Vectors are in the frame of `axis`, whose first row is the normal in the middle. All is rounded
+/// to few digits, so that the bounds hold for what is written here: the axes are a little shorter than 1, so that
+/// nothing is farther apart in them than it is. First derivatives are along the rectangle's own parameters s, t in
+/// 0..1, and across its sides: along the unit vectors that are perpendicular in the middle to the sides of constant s
+/// and of constant t. Their signs are what counts, so they are taken as such positive multiples that along themselves
+/// they stay what they are in the middle: only how they turn is in their spread. Second derivatives are along a, b,
+/// linear in s and t, with Sa = stretch[0] Ss and Sb = stretch[1] St + stretch[2] Ss, which are orthonormal in the
+/// middle: there the Hessian of a squared distance is near to the unit matrix. Order: s, t, aa, ab, bb, across s,
+/// across t.
 struct ImageBounds {
   float middle[3];            ///< c, in design coordinates [mm]
   float axis[3][3];           ///< at right angles but for rounding, one a row
@@ -113,7 +113,7 @@ struct ImageBounds {
 /// loops, those outside of the face are left out.
 struct ImageLeaf {
   std::uint32_t span;
-  std::uint32_t node;                 ///< index of the node that it is a child of
+  std::uint32_t node;                ///< index of the node that it is a child of
   float s_min, s_max, t_min, t_max;  ///< parameters of the span, 0..1
   ImageBounds bounds;
   std::uint32_t spare;  ///< 0

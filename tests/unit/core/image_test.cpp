@@ -221,9 +221,11 @@ TEST(DesignImage, ContradictionsAreRefused) {
   EXPECT_TRUE(refused([](Parts p) { p.patch()->first_extraction_u = 0xFFFFFFFFU; }));
   EXPECT_TRUE(refused([](Parts p) { p.patch()[1].first_extraction_v = p.header()->extraction_count - 1; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->first_point = 0xFFFFFFFFU; }));
-  EXPECT_TRUE(refused([](Parts p) { p.span()->first_point = static_cast<std::uint32_t>(p.header()->point_count - 1); }));
+  EXPECT_TRUE(
+      refused([](Parts p) { p.span()->first_point = static_cast<std::uint32_t>(p.header()->point_count - 1); }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->first_taylor = 0xFFFFFFFFU; }));
-  EXPECT_TRUE(refused([](Parts p) { p.span()->first_taylor = static_cast<std::uint32_t>(p.header()->taylor_count / 4 - 1); }));
+  EXPECT_TRUE(
+      refused([](Parts p) { p.span()->first_taylor = static_cast<std::uint32_t>(p.header()->taylor_count / 4 - 1); }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->cone_cosine = NAN; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->reach[0] = NAN; }));
   EXPECT_TRUE(refused([](Parts p) { p.span()->reach[1] = INFINITY; }));
@@ -238,8 +240,12 @@ TEST(DesignImage, ContradictoryLeavesAndNodesAreRefused) {
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->s_max = 0.75F; }));
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->t_min = NAN; }));
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.middle[1] = INFINITY; }));
-  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.spread[4][2] = 0xBF80U; /* -1 */ }));
-  EXPECT_TRUE(refused([](Parts p) { p.leaf()->bounds.self_low[3] = 0x4E6EU; /* 1e9 */ }));
+  EXPECT_TRUE(refused([](Parts p) {
+    p.leaf()->bounds.spread[4][2] = 0xBF80U; /* -1 */
+  }));
+  EXPECT_TRUE(refused([](Parts p) {
+    p.leaf()->bounds.self_low[3] = 0x4E6EU; /* 1e9 */
+  }));
   EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = kNoChild; }));
   EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = 0; }));
   EXPECT_TRUE(refused([](Parts p) { p.node()->child[0] = 0x7FFFFFFFU; }));

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -167,6 +168,21 @@ TEST(DesignFiles, IgesTransformationMatrixMovesTheSurface) {
     const Eigen::Vector3d expected(5 - point.y(), 6 + point.x(), 7 + point.z());
     EXPECT_LT((moved.control_points[k] - 25.4 * expected).norm(), 1e-12 * 25.4 * 100);
   }
+}
+
+TEST(DesignFiles, TwoFilesOfOneBladeInOtherUnitsAreToldOf) {
+  const ScratchFolder folder;
+  int number = 100;
+  const std::string sheet = testing::step_surface(testing::random_surface({}, {}, true, 41), "SHEET", number);
+  const std::filesystem::path mm = folder.write("mm.stp", testing::step_file(sheet)),
+                              metre = folder.write(
+                                  "metre.stp", testing::step_file(
+                                                   sheet, testing::replaced(testing::kStepMillimetre, ".MILLI.", "$")));
+  const DesignFile design = read_designs({mm, metre});
+  const auto told = [](const std::string& line) {
+    return line.find("its unit is 1000 mm, that of ") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(design.warnings, told), 1);
 }
 
 TEST(DesignFiles, StepUnits) {

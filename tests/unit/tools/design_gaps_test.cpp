@@ -4,6 +4,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "tools/design/design_doubts.hpp"
+#include "tools/design/face_choice.hpp"
+#include "tools/design/nurbs/crossings.hpp"
 #include "tools/design/nurbs/neighbours.hpp"
 
 namespace bladefit {
@@ -73,6 +76,89 @@ TEST(DesignGaps, ABentEdgeThatTwoFacesShareIsNone) {
 TEST(DesignGaps, WhatTouchesOrIsFarOffIsNone) {
   EXPECT_TRUE(find_gaps({flat_sheet(0, 50), flat_sheet(50.05, 100)}, kClosed_mm, kApart_mm).empty());
   EXPECT_TRUE(find_gaps({flat_sheet(0, 50), flat_sheet(50.6, 100)}, kClosed_mm, kApart_mm).empty());
+}
+
+/// A sheet across those above, from z = `low` to `high`, in the plane x = 20.
+NurbsSurface standing_sheet(double low, double high) {
+  NurbsSurface surface = flat_sheet(0, 0);
+  surface.control_points = {{20, 10, low}, {20, 60, low}, {20, 10, high}, {20, 60, high}};
+  return surface;
+}
+
+TEST(DesignGaps, SurfacesThatPassThroughEachOtherAreFoundAndThoseThatTouchAreNot) {
+  const std::vector<Crossing> found = find_crossings({flat_sheet(0, 50), standing_sheet(-20, 30)}, 0.1);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].surface, 0U);
+  EXPECT_EQ(found[0].other, 1U);
+  EXPECT_NEAR(found[0].extent_mm, 50, 4.0);
+  EXPECT_NEAR((found[0].place - Eigen::Vector3d(20, 35, 0)).norm(), 0, 2.0);
+  EXPECT_TRUE(find_crossings({flat_sheet(0, 50), standing_sheet(0, 30)}, 0.1).empty());
+  EXPECT_TRUE(find_crossings({flat_sheet(0, 50), standing_sheet(-0.05, 30)}, 0.1).empty());
+  EXPECT_TRUE(find_crossings({arched_sheet(60, 100), arched_sheet(100, 150)}, 0.1).empty());
+}
+
+TEST(DesignGaps, WhatIsTrimmedOffPassesThroughNothing) {
+  NurbsSurface trimmed = standing_sheet(-20, 30);
+  const auto vertex = [](double u, double v) {
+    TrimVertex result{};
+    result.u = u;
+    result.v = v;
+    return result;
+  };
+  trimmed.trims = {{vertex(0.4, 0), vertex(1, 0), vertex(1, 1), vertex(0.4, 1)}};
+  EXPECT_TRUE(find_crossings({flat_sheet(0, 50), trimmed}, 0.1).empty());
+  for (TrimVertex& place : trimmed.trims[0]) place.u = place.u == 0.4 ? 0.2 : place.u;
+  EXPECT_EQ(find_crossings({flat_sheet(0, 50), trimmed}, 0.1).size(), 1U);
+}
+
+TEST(DesignGaps, ASheetThatIsFoldedThroughItselfIsFound) {
+  NurbsSurface loop = flat_sheet(0, 0);
+  loop.u = {3, 4, {0, 0, 0, 0, 1, 1, 1, 1}, 0.0, 1.0};
+  loop.control_points.clear();
+  for (const auto& [x, z] : {std::pair{0.0, 0.0}, {150.0, 100.0}, {-100.0, 100.0}, {50.0, 0.0}}) {
+    for (const double y : {0.0, 40.0}) loop.control_points.emplace_back(x, y, z);
+  }
+  loop.weights.assign(8, 1.0);
+  const std::vector<Crossing> found = find_crossings({loop}, 0.1);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].other, 0U);
+}
+
+DesignFile design_of(std::vector<NurbsSurface> surfaces, const std::vector<double>& areas) {
+  DesignFile design;
+  design.surfaces = std::move(surfaces);
+  for (const double area : areas) {
+    DesignFace& face = design.faces.emplace_back();
+    face.entity = "face #" + std::to_string(design.faces.size());
+    face.kind = "plane";
+    face.area = area;
+  }
+  return design;
+}
+
+bool is_told(const std::vector<std::string>& lines, const std::string& what) {
+  for (const std::string& line : lines) {
+    if (line.find(what) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(DesignGaps, CrossingsAndCopiesAreToldOfTheDesign) {
+  const std::vector<std::string> crossed =
+      design_doubts(design_of({flat_sheet(0, 50), standing_sheet(-20, 30)}, {5000, 2500}));
+  EXPECT_TRUE(is_told(crossed, "face #1 and face #2 pass through each other over"));
+  EXPECT_FALSE(is_told(crossed, "in one place"));
+  const std::vector<std::string> twice = design_doubts(design_of({flat_sheet(0, 50), flat_sheet(0, 50)}, {5000, 5000}));
+  EXPECT_TRUE(is_told(twice, "1 pair of faces in one place, such as face #1 and face #2"));
+}
+
+TEST(DesignGaps, TrimmedPlanesAreCapsOnlyWhileTheyAreASmallPart) {
+  for (const double cap : {500.0, 3000.0}) {
+    DesignFile design = design_of({flat_sheet(0, 50), flat_sheet(50, 60)}, {5000, cap});
+    design.surfaces[1].trims = {TrimLoop(3)};
+    leave_flat_caps(design);
+    EXPECT_EQ(design.surfaces.size(), cap < 1000 ? 1U : 2U);
+  }
 }
 
 }  // namespace

@@ -17,6 +17,8 @@
 #include <map>
 
 #include "tools/design/iges/iges_clean.hpp"
+#include "tools/design/iges/iges_references.hpp"
+#include "tools/design/iges/iges_solid_places.hpp"
 #include "tools/design/occ/cad_session.hpp"
 #include "tools/design/occ/design_faces.hpp"
 #include "tools/design/occ/memory_file.hpp"
@@ -35,6 +37,22 @@ constexpr int kPhysicallyDependent = 1, kBothDependent = 3, kGeometry = 0, kDefi
 constexpr int kNameProperty = 406, kNameForm = 15;
 
 bool is_surface(int type) { return std::ranges::find(kSurfaceTypes, type) != kSurfaceTypes.end(); }
+
+/// Solids made of faces, what holds surfaces and solids, and solids of other kinds, which the library does not know.
+constexpr int kSolidOfFaces = 186;
+constexpr std::array<int, 3> kHolderTypes = {184, 408, 430};
+constexpr std::array<int, 10> kPrimitiveTypes = {150, 152, 154, 156, 158, 160, 162, 164, 168, 180};
+
+/// A face of the design should come of it.
+bool holds_faces(const CleanIges& iges, std::size_t index) {
+  const int type = iges.entities[index].type;
+  if (is_surface(type) || type == kSolidOfFaces || std::ranges::find(kPrimitiveTypes, type) != kPrimitiveTypes.end())
+    return true;
+  if (std::ranges::find(kHolderTypes, type) == kHolderTypes.end()) return false;
+  return std::ranges::any_of(iges_parts(iges.entities, iges.parameters, index), [&](std::size_t part) {
+    return is_surface(iges.entities[part].type) || iges.entities[part].type == kSolidOfFaces;
+  });
+}
 
 int status_digit(const IgesEntity& entity, std::size_t pair) {
   return 10 * (entity.status[2 * pair] - '0') + (entity.status[2 * pair + 1] - '0');
@@ -91,7 +109,9 @@ std::string list_types(const CleanIges& iges) {
   return list.empty() ? "none" : fmt::format("{}", fmt::join(list, ", ")).substr(0, 120);
 }
 
-void name_faces(const CleanIges& iges, const IGESData_IGESModel& model, const FaceSources& sources, CadFaces& read) {
+/// Names the faces by their entities, leaves out hidden ones, and moves those of solids to their place.
+void name_faces(const CleanIges& iges, const IgesSolidPlaces& places, const IGESData_IGESModel& model,
+                const FaceSources& sources, CadFaces& read) {
   std::vector<CadFace> shown;
   for (CadFace& face : read.faces) {
     const auto source = sources.find(key_of(face.face));
@@ -104,6 +124,7 @@ void name_faces(const CleanIges& iges, const IGESData_IGESModel& model, const Fa
       const auto index = static_cast<std::size_t>(face.order) / 2;
       if (is_left_out(iges.entities[index])) continue;
       face.entity = fmt::format("entity {} at D{}", entity->TypeNumber(), face.order);
+      places.place(index, face);
       face.name = name_of(iges, index);
       face.layer = iges.entities[index].level > 0 ? fmt::format("{}", iges.entities[index].level) : "";
     }
@@ -119,7 +140,7 @@ void note_absent(const CleanIges& iges, IGESControl_Reader& reader, CadFaces& re
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   for (std::size_t k = 0; k < iges.entities.size(); ++k) {
     const IgesEntity& entity = iges.entities[k];
-    if (!is_surface(entity.type) || !is_independent(entity)) continue;
+    if (!is_independent(entity) || !holds_faces(iges, k)) continue;
     if (is_left_out(entity)) {
       ++left_out;
       continue;
@@ -132,7 +153,7 @@ void note_absent(const CleanIges& iges, IGESControl_Reader& reader, CadFaces& re
                                       name.empty() ? "" : fmt::format(" ({})", name)));
   }
   if (left_out > 0) {
-    read.notes.push_back(fmt::format("{} hidden or construction surfaces are left out", left_out));
+    read.notes.push_back(fmt::format("{} hidden or construction surfaces or bodies are left out", left_out));
   }
 }
 
@@ -147,7 +168,7 @@ CadFaces read_faces(const CleanIges& iges, const std::string& file) {
   reader.TransferRoots();
   CadFaces read;
   if (const TopoDS_Shape shape = reader.OneShape(); !shape.IsNull()) read.faces = faces_of(shape);
-  name_faces(iges, *reader.IGESModel(), face_sources(reader.WS()), read);
+  name_faces(iges, IgesSolidPlaces(iges, file), *reader.IGESModel(), face_sources(reader.WS()), read);
   note_absent(iges, reader, read);
   if (read.faces.empty() && read.unread.empty()) {
     throw ToolError(fmt::format(
@@ -166,6 +187,7 @@ DesignFile read_iges(const std::filesystem::path& path) {
   const CleanIges iges = clean_iges_text(content, file);
   DesignFile design;
   design.unit = shown_unit(iges.global.unit);
+  design.file_unit_mm = iges.global.unit.mm;
   design.warnings = iges.warnings;
   with_cad_library(file, [&] {
     append_surfaces(read_faces(iges, file), design);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "tools/design/text/reference_circle.hpp"
 #include "tools/files/tool_error.hpp"
@@ -21,7 +22,7 @@ struct ReferencePlaces {
   std::array<std::size_t, 3> fixed;  ///< 0 = none
   std::size_t count, list, width, at;
 };
-constexpr std::array<ReferencePlaces, 24> kPlaces = {{
+constexpr std::array<ReferencePlaces, 25> kPlaces = {{
     {102, {}, 1, 2, 1, 0},         // composite curve
     {108, {5}, 0, 0, 0, 0},        // plane and its boundary
     {118, {1, 2}, 0, 0, 0, 0},     // ruled surface
@@ -46,6 +47,7 @@ constexpr std::array<ReferencePlaces, 24> kPlaces = {{
     {510, {1}, 2, 4, 1, 0},        // face
     {514, {}, 1, 2, 2, 0},         // shell
     {184, {}, 1, 2, 1, 0},         // assembly of solids
+    {430, {1}, 0, 0, 0, 0},        // instance of a solid
 }};
 /// Forms of 402 that are groups; others list other things.
 constexpr std::array<int, 4> kGroupForms = {1, 7, 14, 15};
@@ -112,6 +114,21 @@ void check_iges_references(const std::vector<IgesEntity>& entities, const std::v
   const IgesEntity& entity = entities[graph.targets[*circle]];
   throw ToolError(fmt::format("{}: entity {} at D{} refers to itself; export the design again", file, entity.type,
                               entity.directory_number));
+}
+
+std::vector<std::size_t> iges_parts(const std::vector<IgesEntity>& entities,
+                                    const std::vector<IgesParameters>& parameters, std::size_t index) {
+  std::set<std::size_t> seen = {index};
+  std::vector<std::size_t> parts = {index};
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::vector<std::uint32_t> targets;
+    append_targets(entities[parts[k]], parameters[parts[k]], entities.size(), targets);
+    for (const std::uint32_t target : targets) {
+      if (seen.insert(target).second) parts.push_back(target);
+    }
+  }
+  parts.erase(parts.begin());
+  return parts;
 }
 
 }  // namespace bladefit

@@ -55,7 +55,8 @@ LeafChoice choose_leaves(const std::vector<LeafTree>& trees, std::size_t most) {
     const auto [gain, span, k] = pending.top();
     pending.pop();
     const std::size_t first = trees[span][k].halves;
-    const std::size_t after = leaves - 1 + (trees[span][first].on_face ? 1 : 0) + (trees[span][first + 1].on_face ? 1 : 0);
+    const std::size_t after =
+        leaves - 1 + (trees[span][first].on_face ? 1 : 0) + (trees[span][first + 1].on_face ? 1 : 0);
     if (after > most) continue;
     leaves = after;
     cut[span][k] = true;

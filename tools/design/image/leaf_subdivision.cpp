@@ -36,7 +36,8 @@ Vec3 vector_of(const float (&x)[3]) { return {x[0], x[1], x[2]}; }
 double reach(const ImageBounds& b, double near) {
   double curvature = 0;
   for (int d = 2; d < 5; ++d)
-    curvature = std::max(curvature, std::abs(static_cast<double>(b.derivative[d][0])) + from_half_float(b.spread[d][0]));
+    curvature =
+        std::max(curvature, std::abs(static_cast<double>(b.derivative[d][0])) + from_half_float(b.spread[d][0]));
   return curvature * near > 0.5 ? 0.5 / curvature : near;
 }
 
@@ -76,8 +77,9 @@ class Subdivision {
   [[nodiscard]] LeafCandidate candidate(const LocalRect& rect, int cuts) const {
     LeafCandidate c;
     const auto single = [](double x) { return static_cast<float>(x); };
-    c.leaf = {0, 0, single(rect.s_min), single(rect.s_max), single(rect.t_min), single(rect.t_max),
-              leaf_bounds(span_, rect), {}};
+    c.leaf = {
+        0, 0, single(rect.s_min), single(rect.s_max), single(rect.t_min), single(rect.t_max), leaf_bounds(span_, rect),
+        {}};
     c.cuts = cuts;
     BezierNet net = net_;
     restrict_net(rect, net);

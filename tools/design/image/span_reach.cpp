@@ -70,8 +70,8 @@ class SpanProof {
                                  [](const ImageLeaf& l, std::uint32_t span) { return l.span < span; });
     for (; leaf != leaves.end() && leaf->span == span_; ++leaf) {
       LocalRect rect = rect_of(*leaf);
-      rect = {std::max(rect.s_min, cell_.s_min), std::min(rect.s_max, cell_.s_max),
-              std::max(rect.t_min, cell_.t_min), std::min(rect.t_max, cell_.t_max)};
+      rect = {std::max(rect.s_min, cell_.s_min), std::min(rect.s_max, cell_.s_max), std::max(rect.t_min, cell_.t_min),
+              std::min(rect.t_max, cell_.t_max)};
       if (rect.s_min < rect.s_max && rect.t_min < rect.t_max)
         feet_.push_back(std::make_unique<SurfacePart>(surface_, span_, rect, 0));
     }

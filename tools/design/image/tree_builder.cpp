@@ -27,8 +27,12 @@ double half_area(const Box& box) {
 }
 
 /// Largest coordinate of single precision below `x`, about the middle, or smallest above it.
-float coordinate_below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
-float coordinate_above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
+float coordinate_below(double x) {
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+float coordinate_above(double x) {
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
 
 class TreeBuilder {
  public:

@@ -54,8 +54,8 @@ struct BezierPatch {
   }
 };
 
-/// Cuts `surface`, which check_surface has accepted, at its knots. Shares are worked out in extended precision, and nets
-/// from them as the image's reader does, to the same bits. Cost: linear in the number of spans.
+/// Cuts `surface`, which check_surface has accepted, at its knots. Shares are worked out in extended precision, and
+/// nets from them as the image's reader does, to the same bits. Cost: linear in the number of spans.
 BezierPatch extract_bezier(const NurbsSurface& surface);
 
 }  // namespace bladefit

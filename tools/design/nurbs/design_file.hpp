@@ -27,6 +27,7 @@ struct DesignFile {
   std::vector<NurbsSurface> surfaces;  ///< at least one; patch k of the design is surfaces[k]
   std::vector<DesignFace> faces;       ///< of each surface, in the same order
   DesignUnit unit = DesignUnit::mm;    ///< in which lengths of this design are shown
+  double file_unit_mm = 1;             ///< length of the unit that the file's numbers were in [mm]
   std::vector<std::string> warnings;   ///< one line each: what was repaired, converted or left out
   std::vector<std::string> missing;    ///< faces that could not be read, with kind and reason
 };

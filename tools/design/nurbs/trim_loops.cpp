@@ -1,5 +1,7 @@
 #include "tools/design/nurbs/trim_loops.hpp"
 
+#include <algorithm>
+
 namespace bladefit {
 
 bool inside_loops(const std::vector<TrimLoop>& loops, double u, double v) {
@@ -10,6 +12,15 @@ bool inside_loops(const std::vector<TrimLoop>& loops, double u, double v) {
     if ((turn < 0.0) == (b.v > a.v)) inside = !inside;
   });
   return inside;
+}
+
+std::vector<double> crossings_at(const std::vector<TrimLoop>& loops, double v) {
+  std::vector<double> crossings;
+  each_piece(loops, [&](const TrimVertex& a, const TrimVertex& b) {
+    if ((a.v > v) != (b.v > v)) crossings.push_back(a.u + (b.u - a.u) * (v - a.v) / (b.v - a.v));
+  });
+  std::ranges::sort(crossings);
+  return crossings;
 }
 
 }  // namespace bladefit

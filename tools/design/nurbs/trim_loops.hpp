@@ -17,4 +17,7 @@ void each_piece(const std::vector<TrimLoop>& loops, Use use) {
 /// Cost: linear in the number of pieces.
 [[nodiscard]] bool inside_loops(const std::vector<TrimLoop>& loops, double u, double v);
 
+/// Where the line of constant `v` crosses the loops, rising: inside of them from the first to the second, and so on.
+[[nodiscard]] std::vector<double> crossings_at(const std::vector<TrimLoop>& loops, double v);
+
 }  // namespace bladefit

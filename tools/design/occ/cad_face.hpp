@@ -1,6 +1,7 @@
 #pragma once
 #include <TopoDS_Face.hxx>
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@ namespace bladefit {
 /// A face that OpenCASCADE made of a file, where it stands.
 struct CadFace {
   TopoDS_Face face;
+  /// From there to where it stands: of a mirrored or scaled one, which OpenCASCADE's places cannot be; of others
+  /// nothing.
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
   std::string entity;    ///< for messages: "face #17", "entity 144 at D5"
   std::string name;      ///< as the file has it; may be empty
   std::string layer;     ///< name or number of its layer; empty = none

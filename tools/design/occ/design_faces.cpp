@@ -5,6 +5,7 @@
 #include <Bnd_Box.hxx>
 #include <Standard_Failure.hxx>
 
+#include <Eigen/Geometry>
 #include <exception>
 
 #include "tools/design/occ/face_surface.hpp"
@@ -16,9 +17,17 @@ namespace {
 constexpr double kTolerance = 1e-6;
 
 double size_of(const CadFaces& read) {
-  Bnd_Box box;
-  for (const CadFace& face : read.faces) BRepBndLib::Add(face.face, box, Standard_False);
-  return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
+  Eigen::AlignedBox3d whole;
+  for (const CadFace& face : read.faces) {
+    Bnd_Box box;
+    BRepBndLib::Add(face.face, box, Standard_False);
+    if (box.IsVoid()) continue;
+    const gp_Pnt low = box.CornerMin(), high = box.CornerMax();
+    const Eigen::AlignedBox3d own(Eigen::Vector3d(low.X(), low.Y(), low.Z()),
+                                  Eigen::Vector3d(high.X(), high.Y(), high.Z()));
+    whole.extend(own.transformed(face.place));
+  }
+  return whole.isEmpty() ? 0.0 : whole.diagonal().norm();
 }
 
 std::string title_of(const CadFace& face) {

@@ -23,8 +23,8 @@
 namespace bladefit {
 namespace {
 
-/// Areas are taken from this many places in each direction.
-constexpr int kAreaGrid = 32;
+/// Areas are taken from this many places in each direction, and of trimmed faces along so many lines between two.
+constexpr int kAreaGrid = 32, kAreaLines = 8;
 /// An approximation is compared at this many places in each direction.
 constexpr int kErrorGrid = 25;
 constexpr int kApproximationDegree = 8, kApproximationSpans = 400;
@@ -175,36 +175,55 @@ NurbsSurface cut_to(NurbsSurface surface, const FaceBox& box) {
   return part_of(surface, part);
 }
 
-/// Area of the face, and its share of the box.
+/// Length of the part of from..to that lies inside of crossings_at().
+double length_inside(const std::vector<double>& crossings, double from, double to) {
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+    length += std::max(0.0, std::min(to, crossings[k + 1]) - std::max(from, crossings[k]));
+  }
+  return length;
+}
+
+/// Area of the face, and its share of the box: of cells whose part inside of the loops is taken along lines.
 void measure(const Geom_Surface& surface, const FaceBox& box, double scale, FaceSurface& result) {
   double whole = 0;
   const double du = (box.u_max - box.u_min) / kAreaGrid, dv = (box.v_max - box.v_min) / kAreaGrid;
-  for (int i = 0; i < kAreaGrid; ++i) {
-    for (int j = 0; j < kAreaGrid; ++j) {
+  for (int j = 0; j < kAreaGrid; ++j) {
+    std::array<std::vector<double>, kAreaLines> lines;
+    for (int k = 0; k < kAreaLines; ++k) {
+      lines[static_cast<std::size_t>(k)] = crossings_at(result.surface.trims, (j + (k + 0.5) / kAreaLines) / kAreaGrid);
+    }
+    for (int i = 0; i < kAreaGrid; ++i) {
       gp_Pnt point;
       gp_Vec along_u, along_v;
       surface.D1(box.u_min + (i + 0.5) * du, box.v_min + (j + 0.5) * dv, point, along_u, along_v);
       const double area = scale * scale * along_u.Crossed(along_v).Magnitude() * du * dv;
+      double inside = 0;
+      for (const auto& line : lines) {
+        inside += kAreaGrid * length_inside(line, i / double{kAreaGrid}, (i + 1) / double{kAreaGrid}) / kAreaLines;
+      }
       whole += area;
-      if (inside_loops(result.surface.trims, (i + 0.5) / kAreaGrid, (j + 0.5) / kAreaGrid)) result.area += area;
+      result.area += area * (result.surface.trims.empty() ? 1 : inside);
     }
   }
   result.share = whole > 0 ? result.area / whole : 1;
+}
+
+/// Moves what was found in the face's own frame to where the file puts it, by a factor `scale` larger.
+void move_to(const Eigen::Affine3d& place, double scale, FaceSurface& found) {
+  for (Eigen::Vector3d& point : found.surface.control_points) point = place * point;
+  found.area *= scale * scale;
+  found.approximated *= scale;
+  found.trims_off *= scale;
+  if (place.linear().determinant() < 0) found.surface.reversed = !found.surface.reversed;
 }
 
 bool over_degree(const Geom_BSplineSurface& surface) {
   return std::max(surface.UDegree(), surface.VDegree()) > static_cast<int>(kMaxDegree);
 }
 
-}  // namespace
-
-std::string kind_of(const CadFace& face) {
-  const std::string_view type = basis_of(face.face)->DynamicType()->Name();
-  const auto found = std::ranges::find(kKinds, type, &std::pair<std::string_view, const char*>::first);
-  return found != kKinds.end() ? found->second : std::string(type);
-}
-
-FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
+/// The surface as OpenCASCADE places the face.
+FaceSurface surface_in_frame(const CadFace& face, double tolerance_mm) {
   TopLoc_Location place;
   BRep_Tool::Surface(face.face, place);
   const Handle(Geom_Surface) basis = basis_of(face.face);
@@ -230,10 +249,26 @@ FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
   measure(*spline, trimmed.spline_box, trimmed.scale, result);
   result.trims_off = loops.off_mm;
   result.trims_fault = std::move(loops.fault);
-  // gp_Trsf::IsNegative looks at the scale alone, which a mirror that is given by its axes leaves at 1.
-  const bool mirrored = place.Transformation().HVectorialPart().Determinant() < 0;
+  // Neither the scale nor the axes alone tell a mirror.
+  const bool mirrored = place.Transformation().VectorialPart().Determinant() < 0;
   result.surface.reversed = (face.face.Orientation() == TopAbs_REVERSED) != mirrored;
   return result;
+}
+
+}  // namespace
+
+std::string kind_of(const CadFace& face) {
+  const std::string_view type = basis_of(face.face)->DynamicType()->Name();
+  const auto found = std::ranges::find(kKinds, type, &std::pair<std::string_view, const char*>::first);
+  return found != kKinds.end() ? found->second : std::string(type);
+}
+
+FaceSurface face_surface(const CadFace& face, double tolerance_mm) {
+  if (face.place.matrix().isIdentity(0)) return surface_in_frame(face, tolerance_mm);
+  const double scale = std::cbrt(std::abs(face.place.linear().determinant()));
+  FaceSurface found = surface_in_frame(face, tolerance_mm / scale);
+  move_to(face.place, scale, found);
+  return found;
 }
 
 }  // namespace bladefit

@@ -3,11 +3,6 @@
 #include <fmt/format.h>
 #include <Interface_Check.hxx>
 #include <Interface_EntityIterator.hxx>
-#include <StepGeom_Axis2Placement3d.hxx>
-#include <StepGeom_CartesianTransformationOperator3d.hxx>
-#include <StepGeom_Direction.hxx>
-#include <StepRepr_MappedItem.hxx>
-#include <StepRepr_RepresentationMap.hxx>
 #include <StepShape_ShapeRepresentation.hxx>
 #include <StepVisual_Invisibility.hxx>
 #include <StepVisual_InvisibleItem.hxx>
@@ -15,7 +10,6 @@
 #include <StepVisual_PresentationLayerAssignment.hxx>
 #include <StepVisual_StyledItem.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <gp_Vec.hxx>
 
 #include <string_view>
 
@@ -23,22 +17,6 @@
 #include "tools/files/tool_error.hpp"
 
 namespace bladefit {
-namespace {
-
-gp_Vec direction_or(const Handle(StepGeom_Direction) & given, const gp_Vec& otherwise) {
-  if (given.IsNull() || given->NbDirectionRatios() != 3) return otherwise;
-  return {given->DirectionRatiosValue(1), given->DirectionRatiosValue(2), given->DirectionRatiosValue(3)};
-}
-
-/// What OpenCASCADE makes of a placement without a word: it leaves a scale out, and takes a mirror for a turn.
-std::string place_fault(const StepGeom_CartesianTransformationOperator3d& place) {
-  if (place.HasScale() && place.Scale() != 1) return fmt::format("made {:g} times as large", place.Scale());
-  const gp_Vec x = direction_or(place.Axis1(), {1, 0, 0}), y = direction_or(place.Axis2(), {0, 1, 0});
-  return x.Crossed(y).Dot(direction_or(place.Axis3(), x.Crossed(y))) < 0 ? "mirrored" : "";
-}
-
-}  // namespace
-
 StepModel::StepModel(const Handle(StepData_StepModel) & model, const Interface_Graph& graph, const std::string& file)
     : model_(model), file_(file), graph_(graph) {
   for (int k = 1; k <= model_->NbEntities(); ++k) {
@@ -71,31 +49,6 @@ void StepModel::check_faces() const {
       if (fault.empty()) return;
       throw ToolError(fmt::format("{}: surface {}: {}; export the design again", file_, label_of(part), fault));
     });
-  }
-}
-
-void StepModel::check_places() const {
-  for (int k = 1; k <= model_->NbEntities(); ++k) {
-    const Handle(Standard_Transient)& entity = model_->Value(k);
-    const auto operation = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
-    const std::string fault = operation.IsNull() ? std::string() : place_fault(*operation);
-    if (!fault.empty()) {
-      throw ToolError(
-          fmt::format("{}: {}: a part is {} where it is placed, which is not read; export the blade as one "
-                      "part, not as an assembly",
-                      file_, label_of(entity), fault));
-    }
-    const auto item = Handle(StepRepr_MappedItem)::DownCast(entity);
-    if (item.IsNull() || item->MappingSource().IsNull()) continue;
-    const Handle(StepRepr_Representation) part = item->MappingSource()->MappedRepresentation();
-    const Handle(StepRepr_RepresentationItem) place = item->MappingTarget();
-    const bool known = !place.IsNull() && (place->IsKind(STANDARD_TYPE(StepGeom_Axis2Placement3d)) ||
-                                           place->IsKind(STANDARD_TYPE(StepGeom_CartesianTransformationOperator3d)));
-    if (known || part.IsNull() || !part->IsKind(STANDARD_TYPE(StepShape_ShapeRepresentation))) continue;
-    throw ToolError(
-        fmt::format("{}: {}: where a part stands is given in a way that is not read; export the blade as one "
-                    "part, not as an assembly",
-                    file_, label_of(entity)));
   }
 }
 

@@ -31,10 +31,6 @@ class StepModel {
   /// unset name is no damage.
   void check_faces() const;
 
-  /// Throws ToolError where a shape is placed in a way that OpenCASCADE reads as another: enlarged, mirrored, or by an
-  /// operator that it does not know.
-  void check_places() const;
-
  private:
   /// Calls `use` with every instance that `entity` is made of, itself included, once for all calls that share `seen`.
   void each_part(const Handle(Standard_Transient) & entity, std::unordered_set<const Standard_Transient*>& seen,

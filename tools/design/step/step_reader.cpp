@@ -19,6 +19,8 @@
 #include "tools/design/occ/transferred_faces.hpp"
 #include "tools/design/step/step_implied_knots.hpp"
 #include "tools/design/step/step_model.hpp"
+#include "tools/design/step/step_operator.hpp"
+#include "tools/design/step/step_places.hpp"
 #include "tools/design/step/step_text.hpp"
 #include "tools/design/step/step_unit.hpp"
 #include "tools/design/text/design_text.hpp"
@@ -120,16 +122,18 @@ DesignFile read_model(std::string text, const std::string& file) {
   const Handle(StepData_StepModel) model = reader.StepModel();
   const StepModel facts(model, reader.WS()->Graph(), file);
   facts.check_faces();
-  facts.check_places();
+  const StepPlaces places(model, file);
   for (const Handle(StepShape_FaceSurface) & face : facts.faces()) write_implied_knots(*face);
   const LengthUnit unit = read_step_unit(*model, file);
   DesignFile design;
   design.unit = shown_unit(unit);
+  design.file_unit_mm = unit.mm;
   if (const std::string note = shown_unit_note(unit); !note.empty()) design.warnings.push_back(note);
   reader.TransferRoots();
   CadFaces read;
   if (const TopoDS_Shape shape = reader.OneShape(); !shape.IsNull()) read.faces = faces_of(shape);
   const FaceSources sources = face_sources(reader.WS());
+  places.place(read.faces);
   name_faces(facts, sources, read);
   note_absent(facts, sources, read);
   if (read.faces.empty() && read.unread.empty()) {
@@ -147,7 +151,7 @@ DesignFile read_model(std::string text, const std::string& file) {
 
 DesignFile read_step(const std::filesystem::path& path) {
   const std::string file = path.string();
-  std::string text = clean_step_text(read_design_text(path), file);
+  std::string text = with_plain_operators(clean_step_text(read_design_text(path), file));
   return with_cad_library(file, [&] { return read_model(std::move(text), file); });
 }
 
