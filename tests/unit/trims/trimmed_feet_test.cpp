@@ -231,7 +231,9 @@ TEST_P(TrimmedFeet, BallsWithinTheirReachHoldNoOtherPoint) {
   std::printf("  %zu of %zu balls\n", balls.tested, balls.tried);
   EXPECT_EQ(balls.held, 0U) << balls.first;
   EXPECT_EQ(balls.rivals, 0U) << balls.first;
-  if (GetParam() != kWithPoles) EXPECT_GT(balls.tested, 0U);  // of a face with poles little is known
+  if (GetParam() != kWithPoles) {  // of a face with poles little is known
+    EXPECT_GT(balls.tested, 0U);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, TrimmedFeet, ::testing::Range<std::size_t>(0, testing::kTrimmedShapes));
