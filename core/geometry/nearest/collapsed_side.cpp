@@ -9,31 +9,34 @@ namespace {
 /// Second derivatives of half the squared distance below this share of the first fundamental form are negative.
 constexpr double kBendRounding = 1e-9;
 
-/// The control points of a span, by their number along a side and the number of rows away from it.
-class SideNet {
+/// Control points of a span along one of its sides: those `away` rows from it.
+class SideRow {
  public:
-  SideNet(const BezierNet& net, std::size_t side) : net_(net), side_(side) {}
-
-  [[nodiscard]] std::uint32_t degree_along() const { return is_along_v(side_) ? net_.degree_v : net_.degree_u; }
-  [[nodiscard]] const Homogeneous& at(std::uint32_t along, std::uint32_t away) const {
-    const std::uint32_t degree = is_along_v(side_) ? net_.degree_u : net_.degree_v;
-    const std::uint32_t across = is_high(side_) ? degree - away : away;
-    return is_along_v(side_) ? net_.at(across, along) : net_.at(along, across);
+  SideRow(const Surface& surface, std::uint32_t span, std::size_t side, std::uint32_t away) {
+    const ImagePatch& p = surface.patch_of(span);
+    const SpanSource source = source_of(surface.image(), surface.span(span));
+    const std::uint32_t degree = is_along_v(side) ? p.degree_u : p.degree_v;
+    const std::uint32_t number = is_high(side) ? degree - away : away;
+    degree_along_ = is_along_v(side) ? p.degree_v : p.degree_u;
+    (is_along_v(side) ? bezier_row : bezier_column)(source, number, points_);
   }
 
+  [[nodiscard]] std::uint32_t degree_along() const { return degree_along_; }
+  [[nodiscard]] const Homogeneous& at(std::uint32_t along) const { return points_[along]; }
+
  private:
-  const BezierNet& net_;
-  std::size_t side_;
+  std::uint32_t degree_along_;
+  BezierRow points_;
 };
 
-bool is_point(const BezierNet& whole, std::size_t side, double size) {
-  const SideNet net(whole, side);
+bool is_point(const Surface& surface, std::uint32_t span, std::size_t side, double size) {
+  const SideRow row(surface, span, side, 0);
   const auto place = [&](std::uint32_t k) {
-    const Homogeneous h = net.at(k, 0);
+    const Homogeneous& h = row.at(k);
     return Vec3(h.head<3>() / h[3]);
   };
   const Vec3 first = place(0);
-  for (std::uint32_t k = 1; k <= net.degree_along(); ++k) {
+  for (std::uint32_t k = 1; k <= row.degree_along(); ++k) {
     if (!((place(k) - first).squaredNorm() <= size * size)) return false;
   }
   return true;
@@ -42,11 +45,9 @@ bool is_point(const BezierNet& whole, std::size_t side, double size) {
 /// The derivative into the surface at the pole is, times a weight, a curve whose control points are those next to the
 /// side, seen from the pole: the distance falls nowhere where it falls towards none of them.
 bool may_fall(const Surface& surface, std::uint32_t span, std::size_t side, const Vec3& offset, double level) {
-  BezierNet whole;
-  surface.net(span, whole);
-  const SideNet net(whole, side);
-  for (std::uint32_t k = 0; k <= net.degree_along(); ++k) {
-    const Homogeneous pole = net.at(k, 0), next = net.at(k, 1);
+  const SideRow on(surface, span, side, 0), inside(surface, span, side, 1);
+  for (std::uint32_t k = 0; k <= on.degree_along(); ++k) {
+    const Homogeneous &pole = on.at(k), &next = inside.at(k);
     const Vec3 way = next.head<3>() - next[3] / pole[3] * pole.head<3>();
     if (offset.dot(way) > -level * way.norm()) return true;
   }
@@ -89,10 +90,7 @@ class PoleSearch {
 
 std::size_t pole_side(const Surface& surface, const SurfacePlace& place, const SurfacePoint& at, double size) {
   const auto is_pole = [&](bool there, std::size_t side, const Vec3& along) {
-    if (!there || !(along.squaredNorm() <= size * size)) return false;
-    BezierNet net;
-    surface.net(place.span, net);
-    return is_point(net, side, size);
+    return there && along.squaredNorm() <= size * size && is_point(surface, place.span, side, size);
   };
   if (is_pole(place.u <= 0.0, kLowU, at.s_v)) return kLowU;
   if (is_pole(place.u >= 1.0, kHighU, at.s_v)) return kHighU;
@@ -105,17 +103,14 @@ SpanPoles poles_of(const Surface& surface, std::uint32_t span, double size) {
   const ImageSpan& s = surface.span(span);
   const ImagePatch& p = surface.patch_of(span);
   SpanPoles poles;
-  if (s.iu > 0 && s.iu + 1 < p.spans_u && s.iv > 0 && s.iv + 1 < p.spans_v) return poles;
-  BezierNet net;
-  surface.net(span, net);
-  if (s.iu == 0 && is_point(net, kLowU, size)) {
+  if (s.iu == 0 && is_point(surface, span, kLowU, size)) {
     poles.u = PoleEnd::low;
-  } else if (s.iu + 1 == p.spans_u && is_point(net, kHighU, size)) {
+  } else if (s.iu + 1 == p.spans_u && is_point(surface, span, kHighU, size)) {
     poles.u = PoleEnd::high;
   }
-  if (s.iv == 0 && is_point(net, kLowV, size)) {
+  if (s.iv == 0 && is_point(surface, span, kLowV, size)) {
     poles.v = PoleEnd::low;
-  } else if (s.iv + 1 == p.spans_v && is_point(net, kHighV, size)) {
+  } else if (s.iv + 1 == p.spans_v && is_point(surface, span, kHighV, size)) {
     poles.v = PoleEnd::high;
   }
   return poles;

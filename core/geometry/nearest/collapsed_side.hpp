@@ -27,8 +27,8 @@ struct SpanPoles {
   [[nodiscard]] bool any() const { return u != PoleEnd::none || v != PoleEnd::none; }
 };
 
-/// The sides of its patch that the span has which are within `size` [mm] one point. Cost: the span's net and one
-/// subtraction a control point of these.
+/// The sides of its patch that the span has which are within `size` [mm] one point. Cost: a row of
+/// the span's net for each of these.
 [[nodiscard]] SpanPoles poles_of(const Surface& surface, std::uint32_t span, double size);
 
 /// Where a piece of a surface is cut that is from `low` to `high` [spans] away from a pole: a piece at the pole at

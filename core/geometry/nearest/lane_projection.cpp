@@ -12,11 +12,11 @@ void LaneProjections::enter(const Surface& surface, const Vec3& r, const Surface
   const ImagePatch& patch = surface.patch_of(start.span);
   const SpanDomain d = surface.domain(start.span);
   const bool inside = start.u >= d.u_min && start.u <= d.u_max && start.v >= d.v_min && start.v <= d.v_max;
-  open_[lane] = inside && patch.degree_u == 3 && patch.degree_v == 3 && available_;
+  open_[lane] = inside && patch.degree_u == 3 && patch.degree_v == 3 && available_ && surface.holds_taylor();
   if (!open_[lane]) return;
   used_ = lane;
   place_[lane] = start;
-  walk_.taylor[lane] = surface.taylor(start.span, room_[lane]);
+  walk_.taylor[lane] = surface.taylor(start.span, nullptr);
   walk_.per_u[lane] = 1.0 / (d.u_max - d.u_min);
   walk_.per_v[lane] = 1.0 / (d.v_max - d.v_min);
   walk_.x[lane] = (start.u - d.u_min) * walk_.per_u[lane] - 0.5;

@@ -14,7 +14,8 @@ class LaneProjections {
   explicit LaneProjections(bool available = lanes_available()) : available_(available) {}
 
   /// Takes in a point, in design coordinates, and the place that its foot is sought from. Lanes are taken in order.
-  /// What lanes cannot do, since the place is not in a bicubic span or the processor has none, is left out.
+  /// What lanes cannot do, since the place is not in a bicubic span, the image holds no Taylor form of it or the
+  /// processor has no lanes, is left out.
   void enter(const Surface& surface, const Vec3& r, const SurfacePlace& start);
 
   /// Finds the feet. Cost: some 45 ns a point from neighbouring places.
@@ -40,7 +41,6 @@ class LaneProjections {
   std::array<bool, kLanes> open_{};
   std::array<SurfacePlace, kLanes> place_;
   LaneWalk walk_;
-  double room_[kLanes][4 * 4 * 4];  ///< for bicubic Taylor forms, where the image holds none
 };
 
 /// The numbers of one lane.

@@ -71,7 +71,6 @@ class LeafSearch {
 
   LeafOutcome search_pieces(const Piece& first, std::uint32_t budget) {
     LeafOutcome outcome;
-    surface_.net(index_, whole_);
     poles_ = poles_of(surface_, index_, foot_size());
     std::array<Piece, kMaxCuts + 2> stack;
     std::size_t size = 0;
@@ -83,7 +82,7 @@ class LeafSearch {
       }
       ++outcome.pieces;
       Piece& piece = stack[size - 1];
-      copy_net(whole_, net_);
+      surface_.net(index_, net_);
       restrict_net(piece.rect, net_);
       const Fate fate = examine(piece);
       if (fate == Fate::shrunk) continue;
@@ -275,8 +274,7 @@ class LeafSearch {
   SpanDomain domain_;
   Vec3 arm_;  ///< the point in the frame of the leaf
   NearestSoFar& nearest_;
-  BezierNet whole_;  ///< of the span
-  BezierNet net_;    ///< of the piece in hand
+  BezierNet net_;  ///< of the piece in hand
   SpanPoles poles_;
 };
 

@@ -1,7 +1,5 @@
 #include "core/geometry/surface/bezier.hpp"
 
-#include <algorithm>
-
 namespace bladefit {
 namespace {
 
@@ -24,12 +22,6 @@ void restrict_polygon(Homogeneous* points, std::uint32_t n, std::uint32_t stride
 }
 
 }  // namespace
-
-void copy_net(const BezierNet& from, BezierNet& to) {
-  to.degree_u = from.degree_u;
-  to.degree_v = from.degree_v;
-  std::copy_n(from.points.begin(), (from.degree_u + 1) * (from.degree_v + 1), to.points.begin());
-}
 
 void restrict_net(const LocalRect& rect, BezierNet& net) {
   const std::uint32_t columns = net.degree_v + 1;

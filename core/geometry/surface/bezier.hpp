@@ -20,9 +20,6 @@ struct BezierNet {
   [[nodiscard]] const Homogeneous& at(std::uint32_t i, std::uint32_t j) const { return points[i * (degree_v + 1) + j]; }
 };
 
-/// The control points that the degrees tell of, and no others. Cost: linear in them.
-void copy_net(const BezierNet& from, BezierNet& to);
-
 /// Rectangle of local parameters inside one span.
 struct LocalRect {
   double s_min = 0, s_max = 1, t_min = 0, t_max = 1;

@@ -3,34 +3,52 @@
 namespace bladefit {
 namespace {
 
-using Point = Eigen::Map<Homogeneous>;
 using GivenPoint = Eigen::Map<const Homogeneous>;
+
+/// The control points along v of row i, as yet not those of spans in v.
+void weigh_rows(const SpanSource& source, std::uint32_t i, BezierRow& row) {
+  const std::uint32_t rows = source.degree_u + 1;
+  const double* share = source.along_u + i * rows;
+  for (std::uint32_t j = 0; j <= source.degree_v; ++j) {
+    row[j] = share[0] * GivenPoint(source.points + 4U * j);
+    for (std::uint32_t k = 1; k < rows; ++k)
+      row[j] += share[k] * GivenPoint(source.points + 4U * (static_cast<std::size_t>(k) * source.points_v + j));
+  }
+}
+
+/// Of a row that weigh_rows() has made, the Bezier control point j.
+Homogeneous weighed(const SpanSource& source, const BezierRow& row, std::uint32_t j) {
+  const std::uint32_t columns = source.degree_v + 1;
+  const double* share = source.along_v + j * columns;
+  Homogeneous sum = share[0] * row[0];
+  for (std::uint32_t k = 1; k < columns; ++k) sum += share[k] * row[k];
+  if (!source.rational) sum[3] = 1.0;
+  return sum;
+}
 
 }  // namespace
 
 void bezier_points(const SpanSource& source, double* net) {
-  const std::uint32_t rows = source.degree_u + 1, columns = source.degree_v + 1;
-  for (std::uint32_t i = 0; i < rows; ++i) {
-    const double* share = source.along_u + i * rows;
-    for (std::uint32_t j = 0; j < columns; ++j) {
-      Homogeneous sum = share[0] * GivenPoint(source.points + 4U * j);
-      for (std::uint32_t k = 1; k < rows; ++k) {
-        sum += share[k] * GivenPoint(source.points + 4U * (static_cast<std::size_t>(k) * source.points_v + j));
-      }
-      Point(net + 4U * (i * columns + j)) = sum;
-    }
+  const std::uint32_t columns = source.degree_v + 1;
+  BezierRow row;
+  for (std::uint32_t i = 0; i <= source.degree_u; ++i) {
+    weigh_rows(source, i, row);
+    for (std::uint32_t j = 0; j < columns; ++j)
+      Eigen::Map<Homogeneous>(net + 4U * (i * columns + j)) = weighed(source, row, j);
   }
-  std::array<Homogeneous, kMaxOrder> row;
-  for (std::uint32_t i = 0; i < rows; ++i) {
-    double* const first = net + 4U * i * columns;
-    for (std::uint32_t j = 0; j < columns; ++j) row[j] = GivenPoint(first + 4U * j);
-    for (std::uint32_t j = 0; j < columns; ++j) {
-      const double* share = source.along_v + j * columns;
-      Homogeneous sum = share[0] * row[0];
-      for (std::uint32_t k = 1; k < columns; ++k) sum += share[k] * row[k];
-      if (!source.rational) sum[3] = 1.0;
-      Point(first + 4U * j) = sum;
-    }
+}
+
+void bezier_row(const SpanSource& source, std::uint32_t number, BezierRow& row) {
+  BezierRow given;
+  weigh_rows(source, number, given);
+  for (std::uint32_t j = 0; j <= source.degree_v; ++j) row[j] = weighed(source, given, j);
+}
+
+void bezier_column(const SpanSource& source, std::uint32_t number, BezierRow& column) {
+  BezierRow row;
+  for (std::uint32_t i = 0; i <= source.degree_u; ++i) {
+    weigh_rows(source, i, row);
+    column[i] = weighed(source, row, number);
   }
 }
 

@@ -20,6 +20,11 @@ struct SpanSource {
 /// + 2) points weighed, some 150 ns for a bicubic span.
 void bezier_points(const SpanSource& source, double* net);
 
+/// Row `number` of them, in u, or column, in v, to the same bits. Cost: less, and little of the stack.
+using BezierRow = std::array<Homogeneous, kMaxOrder>;
+void bezier_row(const SpanSource& source, std::uint32_t number, BezierRow& row);
+void bezier_column(const SpanSource& source, std::uint32_t number, BezierRow& column);
+
 /// Those of a span of an image whose indices hold.
 [[nodiscard]] SpanSource source_of(const DesignImage& image, const ImageSpan& span);
 void bezier_net(const DesignImage& image, const ImageSpan& span, BezierNet& out);

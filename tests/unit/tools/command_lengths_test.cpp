@@ -76,7 +76,7 @@ TEST(CommandVolume, QuietTellsTheVerdictAloneAndVerboseTheTimes) {
   EXPECT_EQ(std::ranges::count(quiet.out, '\n'), 1) << quiet.out;
   EXPECT_NE(usual.out.find(quiet.out), std::string::npos);
   const Spoken verbose = judge_some(scratch, {"--tolerance", "0.1", "--verbose"});
-  EXPECT_NE(verbose.out.find("points fitted and judged: "), std::string::npos) << verbose.out;
+  EXPECT_NE(verbose.err.find("points fitted and judged: "), std::string::npos) << verbose.err;
   EXPECT_EQ(judge_some(scratch, {"--tolerance", "0.1", "--verbose", "--quiet"}).exit_code, 2);
 }
 

@@ -1,10 +1,11 @@
 #include "tools/design/image/framed_piece.hpp"
 
+#include <utility>
+
 namespace bladefit {
 
-FramedPiece::FramedPiece(const BezierNet& whole, const LocalRect& rect, const PieceFrame& frame, PieceScale scale)
-    : scale_(scale) {
-  copy_net(whole, net_);
+FramedPiece::FramedPiece(BezierNet whole, const LocalRect& rect, const PieceFrame& frame, PieceScale scale)
+    : net_(std::move(whole)), scale_(scale) {
   restrict_net(rect, net_);
   // As a map, which Eigen sums up in the same order everywhere: images are the same to the last bit.
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(frame.axes.data());

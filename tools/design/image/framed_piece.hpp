@@ -31,7 +31,7 @@ struct PieceRange {
 class FramedPiece {
  public:
   /// `whole`: the net of the span.
-  FramedPiece(const BezierNet& whole, const LocalRect& rect, const PieceFrame& frame, PieceScale scale);
+  FramedPiece(BezierNet whole, const LocalRect& rect, const PieceFrame& frame, PieceScale scale);
 
   /// By the control points of the homogeneous derivatives, and the quotient rule on A / w with intervals; small because
   /// A is taken about the piece's own origin. Cost: some microseconds for a bicubic span.
