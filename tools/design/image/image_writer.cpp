@@ -27,8 +27,8 @@ constexpr double kNear = 5e-3;
 /// Bytes that an image may have, in those of its control points.
 constexpr std::uint64_t kPointBytes = 4 * sizeof(double);
 constexpr std::uint64_t times_of_points(ImageSize size) { return size == ImageSize::compact ? 20 : 40; }
-/// Bytes of a leaf with its share of the nodes, of which there is about one to two leaves.
-constexpr std::uint64_t kLeafBytes = sizeof(ImageLeaf) + sizeof(ImageNode) / 2;
+/// Bytes of a leaf with its share of the nodes, of which there are some three to eight leaves.
+constexpr std::uint64_t kLeafBytes = sizeof(ImageLeaf) + sizeof(ImageNode) * 3 / 8;
 /// Tries until an image is as small as it may be.
 constexpr int kMostTries = 16;
 

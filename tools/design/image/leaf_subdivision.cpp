@@ -35,9 +35,10 @@ Vec3 vector_of(const float (&x)[3]) { return {x[0], x[1], x[2]}; }
 /// How far off the surface the distance can be convex: half the least radius of curvature.
 double reach(const ImageBounds& b, double near) {
   double curvature = 0;
-  for (int d = 2; d < 5; ++d)
-    curvature =
-        std::max(curvature, std::abs(static_cast<double>(b.derivative[d][0])) + from_half_float(b.spread[d][0]));
+  for (int d = 2; d < 5; ++d) {
+    const double middle = std::abs(static_cast<double>(b.derivative[d][0]));
+    curvature = std::max(curvature, middle + from_half_float(b.spread[d][0]));
+  }
   return curvature * near > 0.5 ? 0.5 / curvature : near;
 }
 

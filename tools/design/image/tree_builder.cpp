@@ -9,6 +9,9 @@
 namespace bladefit {
 namespace {
 
+/// Of a node. Of more boxes than that a multiple is parted off, so that few nodes have places left.
+constexpr std::size_t kChildren = 4;
+
 /// From this depth on boxes are parted at the median, so that the logarithm of their number bounds what is left.
 constexpr int kUnevenDepth = 16;
 
@@ -77,6 +80,7 @@ class TreeBuilder {
     box = boxes_[members.front()];
     for (std::size_t k = 1; k < members.size(); ++k) {
       include(box, boxes_[members[k - 1]]);
+      if (members.size() > kChildren && k % kChildren != 0) continue;
       const double cost =
           static_cast<double>(k) * half_area(box) + static_cast<double>(members.size() - k) * area_behind[k];
       if (cost < best.cost) best = {cost, k};
@@ -97,17 +101,20 @@ class TreeBuilder {
       }
     }
     sort_along(best_axis, members);
-    return depth < kUnevenDepth ? best.first : members.size() / 2;
+    if (depth < kUnevenDepth) return best.first;
+    const std::size_t half = members.size() / 2;
+    return members.size() > kChildren ? (half + kChildren - 1) / kChildren * kChildren : half;
   }
 
   /// Parts the largest part again until there are four.
   [[nodiscard]] std::vector<Members> parted(Members members, int depth) const {
     std::vector<Members> parts{members};
-    while (parts.size() < 4) {
+    while (parts.size() < kChildren) {
       std::size_t largest = parts.size();
       double area = -1.0;
       for (std::size_t k = 0; k < parts.size(); ++k) {
-        if (parts[k].size() < 2 || half_area(around(parts[k])) <= area) continue;
+        const bool whole_node = members.size() > kChildren && parts[k].size() <= kChildren;
+        if (parts[k].size() < 2 || whole_node || half_area(around(parts[k])) <= area) continue;
         largest = k;
         area = half_area(around(parts[k]));
       }
@@ -124,7 +131,7 @@ class TreeBuilder {
     const std::size_t self = nodes_.size();
     nodes_.emplace_back();
     const std::vector<Members> parts = parted(members, depth);
-    for (std::size_t place = 0; place < 4; ++place) {
+    for (std::size_t place = 0; place < kChildren; ++place) {
       if (place >= parts.size()) {
         set_empty(nodes_[self], place);
         continue;
