@@ -235,7 +235,7 @@ TEST(DesignImage, ContradictionsAreRefused) {
 }
 
 TEST(DesignImage, ContradictoryLeavesAndNodesAreRefused) {
-  EXPECT_TRUE(refused([](Parts p) { p.leaf()->node = p.leaf()[1].node; }));
+  EXPECT_TRUE(refused([](Parts p) { p.leaf()->node ^= 1U; }));
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->span = 1; }));
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->s_max = 0.75F; }));
   EXPECT_TRUE(refused([](Parts p) { p.leaf()->t_min = NAN; }));
