@@ -17,7 +17,7 @@ struct SpanSource {
 
 /// Writes the control points of the Bezier form, 4 (degree_u + 1)(degree_v + 1) numbers, row by row in u. Sums are in
 /// one order, so that they are the same wherever they are taken. Cost: (degree_u + 1)(degree_v + 1)(degree_u + degree_v
-/// + 2) points weighed, some 150 ns for a bicubic span.
+/// + 2) points weighed.
 void bezier_points(const SpanSource& source, double* net);
 
 /// Row `number` of them, in u, or column, in v, to the same bits. Cost: less, and little of the stack.

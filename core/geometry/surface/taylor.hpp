@@ -14,7 +14,7 @@ struct HomogeneousDerivatives {
   Homogeneous a, a_u, a_v, a_uu, a_uv, a_vv;
 };
 
-/// Turns a net, 4 (degree_u + 1)(degree_v + 1) doubles, into its Taylor form. Cost: some 200 ns for a bicubic span.
+/// Turns a net, 4 (degree_u + 1)(degree_v + 1) doubles, into its Taylor form. Cost: cubic in the degrees.
 void to_taylor_form(std::uint32_t degree_u, std::uint32_t degree_v, double* net);
 
 namespace taylor {
